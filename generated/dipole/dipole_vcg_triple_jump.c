@@ -24,7 +24,7 @@
  *             applied once to a sum and not to each term
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are combined
- *             arguments for parameters, which are constants: beta = 1, depth = 3/2
+ *             arguments for constant parameters: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
  *             6 mul for an initial guess, in the first step of a run
@@ -32,8 +32,8 @@
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 for each sweep of the equations of xi1,
  *             n1
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
- * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1264 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
+ *             margin of 1264 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit dipole --method vcg:triple_jump --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -229,22 +229,22 @@ static int dipole_vcg_triple_jump_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
- * inverses of Newton's matrices.
+ * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
+ * first, and inverses of Newton's matrices.
  */
 struct dipole_vcg_triple_jump_memory {
     size_t known; /* number of stored solutions */
-    double first; /* error of the last guess */
+    double first; /* error of the latest guess */
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
-    double guess[3]; /* extrapolation to the next step */
-    double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
+    double guess[3]; /* initial guess for the next step */
+    double values[32][3]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
+    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
     double inverse_1[9];
 };
 
-/* Coefficients of backward differences by order, the latest solution first. */
+/* Backward differences: coefficients of order k in row k, latest solution first. */
 static const double dipole_vcg_triple_jump_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -293,8 +293,9 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * A backward difference times sign, without the terms before the index first. The term of the latest
- * solution is added last, so the other terms can be summed before that solution is known.
+ * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
+ * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * known.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -330,13 +331,13 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 }
 
 /*
- * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
- * one step later.
+ * Store a solution. The guess for the next solution is the value of the polynomial through the latest
+ * solutions, one step later.
  */
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
+    /* with fewer than three stored solutions, the guess is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -355,7 +356,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
+    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_triple_jump_difference_size(memory, memory->degree);
         int grows = 0;
@@ -372,7 +373,7 @@ static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump
             }
         }
     }
-    /* extrapolate: the difference of the next order is zero for the new values */
+    /* choose the guess so that the backward difference of order degree + 1 is zero */
     dipole_vcg_triple_jump_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -562,7 +563,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+    /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -588,8 +589,9 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
 }
 
 /*
- * Repeat a part of a step whose equations did not converge: first without the earlier solutions, which
- * are bad initial guesses if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a substep whose equations did not converge. The first attempt ignores the solutions of
+ * earlier steps, because they are bad initial guesses if the motion has changed. Then shorter steps
+ * are tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
     struct dipole_vcg_triple_jump_memory *memory,
@@ -710,7 +712,10 @@ static inline void dipole_vcg_triple_jump_to_space(const double state[static 12]
     momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
 }
 
-/* Begin: convert the state to body momentum, and store this momentum converted back to space. */
+/*
+ * Begin: moving = the state with its momentum in the body frame, and before = this momentum, converted
+ * back to the space frame.
+ */
 static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
 {
@@ -720,7 +725,10 @@ static void dipole_vcg_triple_jump_enter_body(const double state[static 12],
     dipole_vcg_triple_jump_to_space(moving, before);
 }
 
-/* End: update the state; add to its space momentum the increase since the beginning of the run. */
+/*
+ * End: update the state. Its new momentum is its momentum at the beginning of the run, plus the
+ * increase of the space momentum during the run.
+ */
 static int dipole_vcg_triple_jump_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])
 {

@@ -26,7 +26,7 @@ left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
             4 adjoint maps: an adjoint map and its inverse cancel
             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
             combined
-            arguments for parameters, which are constants: beta = 1, depth = 3/2
+            arguments for constant parameters: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 114 add, 174 mul, 3 stumpff_12 a step
             6 mul for an initial guess, in the first step of a run
@@ -90,8 +90,8 @@ class Statistics:
 
 
 class _Memory:
-    """Data that one step of a run stores for the next: solutions of its equations,
-    the latest first, and inverses of Newton's matrices.
+    """Data that one step of a run stores for the next: solutions of the implicit
+    equations, the latest first, and inverses of Newton's matrices.
     """
 
     def __init__(self):
@@ -100,13 +100,13 @@ class _Memory:
     def clear(self):
         """Set all fields to zero."""
         self.known = 0  # number of stored solutions
-        self.first = 0.0  # error of the last guess
+        self.first = 0.0  # error of the latest guess
         self.degree = 0  # degree of the extrapolation
         self.place = 0  # row of the latest solution
-        self.guess = [0.0] * 3  # extrapolation to the next step
-        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; each solution is stored twice, so the last ones are contiguous
+        self.guess = [0.0] * 3  # initial guess for the next step
+        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; a solution is in two rows, so the latest solutions are contiguous
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the inverse in steps; 0 without an inverse
+        self.age_1 = 0  # age of the stored inverse matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 9
 
 
@@ -230,7 +230,7 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-# Coefficients of backward differences by order, the latest solution first.
+# Backward differences: coefficients of order k in row k, latest solution first.
 differences = (
     (
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
@@ -324,9 +324,9 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference times sign, without the terms before the index first.
-    The term of the latest solution is added last, so the other terms can be
-    summed before that solution is known.
+    """A backward difference, multiplied by ``sign``. Terms with an index below
+    ``first`` are omitted. The term of the latest solution is added last, so all
+    other terms can be summed before that solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -359,11 +359,10 @@ def _difference_size(memory, order):
 
 
 def _remember(memory, solution):
-    """Store a solution and extrapolate the next one: the polynomial through the last
-    solutions, evaluated one step later.
+    """Store a solution. The guess for the next solution is the value of the
+    polynomial through the latest solutions, one step later.
     """
-    # with fewer than three stored solutions, the guess is the last solution; it is
-    # not tested
+    # with fewer than three stored solutions, the guess is not tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -379,7 +378,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # raise the degree while differences decrease; with a full memory, test every 8
+    # adapt the degree of the extrapolation; with a full ring buffer, only once in 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -393,7 +392,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # extrapolate: the difference of the next order is zero for the new values
+    # choose the guess so that the backward difference of order degree + 1 is zero
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -578,9 +577,10 @@ def _substep(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a part of a step whose equations did not converge: first without the
-    earlier solutions, which are bad initial guesses if the motion has changed,
-    then by continuation in h from shorter steps.
+    """Repeat a substep whose equations did not converge. The first attempt ignores
+    the solutions of earlier steps, because they are bad initial guesses if the
+    motion has changed. Then shorter steps are tried. Each solution is the initial
+    guess for a longer step (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -667,8 +667,8 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Begin: convert the state to body momentum, and store this momentum converted
-    back to space.
+    """Begin: moving = the state with its momentum in the body frame, and before =
+    this momentum, converted back to the space frame.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]
@@ -677,8 +677,8 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """End: update the state; add to its space momentum the increase since the
-    beginning of the run.
+    """End: update the state. Its new momentum is its momentum at the beginning of
+    the run, plus the increase of the space momentum during the run.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)

@@ -23,7 +23,7 @@
  *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of the
  *             same ad_x are combined
  *             2 sums: numeric factors become coefficients of sums
- *             arguments for parameters, which are constants: beta = 1, depth = 3/2
+ *             arguments for constant parameters: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run
@@ -31,8 +31,8 @@
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 for each sweep of the
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul at the beginning of a run, 12 add, 9 mul at its end
- * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1280 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
+ *             margin of 1280 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -318,22 +318,22 @@ static int dipole_vrkmk2_gauss2_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
- * inverses of Newton's matrices.
+ * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
+ * first, and inverses of Newton's matrices.
  */
 struct dipole_vrkmk2_gauss2_memory {
     size_t known; /* number of stored solutions */
-    double first; /* error of the last guess */
+    double first; /* error of the latest guess */
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
-    double guess[6]; /* extrapolation to the next step */
-    double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
+    double guess[6]; /* initial guess for the next step */
+    double values[32][6]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
+    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
     double inverse_1[36];
 };
 
-/* Coefficients of backward differences by order, the latest solution first. */
+/* Backward differences: coefficients of order k in row k, latest solution first. */
 static const double dipole_vrkmk2_gauss2_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -378,8 +378,9 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * A backward difference times sign, without the terms before the index first. The term of the latest
- * solution is added last, so the other terms can be summed before that solution is known.
+ * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
+ * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * known.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -424,13 +425,13 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 }
 
 /*
- * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
- * one step later.
+ * Store a solution. The guess for the next solution is the value of the polynomial through the latest
+ * solutions, one step later.
  */
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
+    /* with fewer than three stored solutions, the guess is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -452,7 +453,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
+    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
@@ -469,7 +470,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
             }
         }
     }
-    /* extrapolate: the difference of the next order is zero for the new values */
+    /* choose the guess so that the backward difference of order degree + 1 is zero */
     dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -858,7 +859,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+    /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -883,8 +884,9 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
- * initial guesses if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
+ * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
+ * Each solution is the initial guess for a longer step (continuation in h).
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
@@ -980,7 +982,10 @@ static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
     momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
 }
 
-/* Begin: convert the state to body momentum, and store this momentum converted back to space. */
+/*
+ * Begin: moving = the state with its momentum in the body frame, and before = this momentum, converted
+ * back to the space frame.
+ */
 static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
 {
@@ -990,7 +995,10 @@ static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     dipole_vrkmk2_gauss2_to_space(moving, before);
 }
 
-/* End: update the state; add to its space momentum the increase since the beginning of the run. */
+/*
+ * End: update the state. Its new momentum is its momentum at the beginning of the run, plus the
+ * increase of the space momentum during the run.
+ */
 static int dipole_vrkmk2_gauss2_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])
 {

@@ -9,14 +9,14 @@
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 2.8e-17
  * scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
- * state:      [0..1] y: point that SL(2) acts on by linear maps
+ * state:      [0..1] y: point on which SL(2) acts by linear maps
  * left out:   1 evaluation of the field: equal values are computed once
  *             5 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit
+ *             an iteration for implicit stages: every stage is explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 832 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of the
- *             mathematical library add to this
+ * stack:      at most 832 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ *             mathematical library functions is not included
  * command:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -220,7 +220,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
         const double w26 = duffing_sl2_cf4_signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+        /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;
@@ -242,7 +242,10 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
     return status;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int duffing_sl2_cf4_cause(const double state[static 2], double h)
 {
     double same[2];

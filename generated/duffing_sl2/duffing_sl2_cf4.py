@@ -9,11 +9,11 @@ order:      4, certificate: exact (the residuals of all order conditions up to t
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 2.8e-17
 scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
-state:      [0..1] y: point that SL(2) acts on by linear maps
+state:      [0..1] y: point on which SL(2) acts by linear maps
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)
             the time: the scene does not depend on it
-            equation solving: every stage is explicit
+            an iteration for implicit stages: every stage is explicit
 operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
 command:    orderconds emit duffing_sl2 --method cf4 --target python -o .
 version:    orderconds 0.1.0
@@ -231,8 +231,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Find the cause of a failed step: it was too long if a step of size zero has a
-    finite result.
+    """Find the cause of a failed step. If a step of size zero succeeds, the cause is
+    the step size. Otherwise the cause is the state.
     """
     same = [0.0] * 2
     same[:] = state

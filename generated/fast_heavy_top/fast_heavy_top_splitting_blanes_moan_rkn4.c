@@ -4,9 +4,9 @@
  *
  * method:     family splitting, tableau blanes_moan_rkn4
  * source:     Blanes and Moan 2002, Table 3, SRKN_6^b of order four
- * order:      4, certificate: ball (interval arithmetic proves that a method of this order exists
- *             whose coefficients differ from the decimals of the tableau by at most one unit in
- *             the last digit)
+ * order:      4, certificate: ball (interval arithmetic proves that a method of this order exists,
+ *             and that its coefficients differ from the decimals of the tableau by at most one
+ *             unit in the last digit)
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 5.6e-17
  * scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010), group SO(3)
@@ -14,14 +14,15 @@
  *             the body; V, kick
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   5 flows: flows of one part are joined across flows that commute
+ * left out:   5 flows: two flows of one part are joined if they commute with all flows between
+ *             them
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit
+ *             an iteration for implicit stages: every stage is explicit
  * operations: 201 add, 335 mul, 6 stumpff_12 a step
  *             2 add, 4 mul once in each run
  *             9 add, 21 mul, 1 stumpff_12 once in each run
- * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
- *             the mathematical library add to this
+ * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ *             mathematical library functions is not included
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -420,7 +421,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn4_finish(double state
     state[11] = new_mu2;
 }
 
-/* One step with all its flows. */
+/* One complete step: no flow is deferred to a later step. */
 static int fast_heavy_top_splitting_blanes_moan_rkn4_complete_step(double state[static 12],
     double h)
 {
@@ -443,7 +444,10 @@ static int fast_heavy_top_splitting_blanes_moan_rkn4_complete_step(double state[
     return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int fast_heavy_top_splitting_blanes_moan_rkn4_cause(const double state[static 12],
     double h)
 {

@@ -4,8 +4,8 @@ splitting:blanes_moan_rkn4
 method:     family splitting, tableau blanes_moan_rkn4
 source:     Blanes and Moan 2002, Table 3, SRKN_6^b of order four
 order:      4, certificate: ball (interval arithmetic proves that a method of this
-            order exists whose coefficients differ from the decimals of the tableau
-            by at most one unit in the last digit)
+            order exists, and that its coefficients differ from the decimals of the
+            tableau by at most one unit in the last digit)
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 5.6e-17
 scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
@@ -14,9 +14,10 @@ flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0,
             0) fixed in the body; V, kick
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
-left out:   5 flows: flows of one part are joined across flows that commute
+left out:   5 flows: two flows of one part are joined if they commute with all flows
+            between them
             the time: the scene does not depend on it
-            equation solving: every stage is explicit
+            an iteration for implicit stages: every stage is explicit
 operations: 201 add, 335 mul, 6 stumpff_12 a step
             2 add, 4 mul once in each run
             9 add, 21 mul, 1 stumpff_12 once in each run
@@ -349,7 +350,7 @@ def _finish(state, elapsed_h):
 
 
 def _complete_step(state, h):
-    """One step with all its flows."""
+    """One complete step: no flow is deferred to a later step."""
     if not isfinite(h):
         return BAD_STEP
     if not all(map(isfinite, state)):
@@ -367,8 +368,8 @@ def _complete_step(state, h):
 
 
 def _cause(state, h):
-    """Find the cause of a failed step: it was too long if a step of size zero has a
-    finite result.
+    """Find the cause of a failed step. If a step of size zero succeeds, the cause is
+    the step size. Otherwise the cause is the state.
     """
     same = [0.0] * 12
     same[:] = state

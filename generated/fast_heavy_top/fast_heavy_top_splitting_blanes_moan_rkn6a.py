@@ -4,8 +4,8 @@ splitting:blanes_moan_rkn6a
 method:     family splitting, tableau blanes_moan_rkn6a
 source:     Blanes and Moan 2002, Table 3, SRKN_14^a of order six
 order:      6, certificate: ball (interval arithmetic proves that a method of this
-            order exists whose coefficients differ from the decimals of the tableau
-            by at most one unit in the last digit)
+            order exists, and that its coefficients differ from the decimals of the
+            tableau by at most one unit in the last digit)
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 1.8e-17
 scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
@@ -14,9 +14,10 @@ flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0,
             0) fixed in the body; V, kick
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
-left out:   14 flows: flows of one part are joined across flows that commute
+left out:   14 flows: two flows of one part are joined if they commute with all
+            flows between them
             the time: the scene does not depend on it
-            equation solving: every stage is explicit
+            an iteration for implicit stages: every stage is explicit
 operations: 473 add, 786 mul, 14 stumpff_12 a step
             29 add, 49 mul, 1 stumpff_12 once in each run
             9 add, 21 mul, 1 stumpff_12 once in each run
@@ -566,7 +567,7 @@ def _finish(state, elapsed_h):
 
 
 def _complete_step(state, h):
-    """One step with all its flows."""
+    """One complete step: no flow is deferred to a later step."""
     if not isfinite(h):
         return BAD_STEP
     if not all(map(isfinite, state)):
@@ -584,8 +585,8 @@ def _complete_step(state, h):
 
 
 def _cause(state, h):
-    """Find the cause of a failed step: it was too long if a step of size zero has a
-    finite result.
+    """Find the cause of a failed step. If a step of size zero succeeds, the cause is
+    the step size. Otherwise the cause is the state.
     """
     same = [0.0] * 12
     same[:] = state

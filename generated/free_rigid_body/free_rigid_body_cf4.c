@@ -9,15 +9,15 @@
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 2.8e-17
  * scene:      Free rigid body on the sphere, group SO(3)
- * state:      [0..2] y: point that SO(3) acts on by rotation
+ * state:      [0..2] y: point on which SO(3) acts by rotation
  * left out:   1 evaluation of the field: equal values are computed once
  *             5 exponentials: exp(x).y is computed without exp(x)
- *             arguments for parameters, which are constants: alpha = 0
+ *             arguments for constant parameters: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit
+ *             an iteration for implicit stages: every stage is explicit
  * operations: 88 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
- *             the mathematical library add to this
+ * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ *             mathematical library functions is not included
  * command:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -229,7 +229,7 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w60 - (w68 * c1_5 + (w62 * w70 + w63 * w71) * c2_5);
         const double new_m1 = w71 * c1_5 - (w63 * w68 + w61 * w70) * c2_5 + w67;
         const double new_m2 = w70 * c1_5 + (w61 * w71 - w62 * w68) * c2_5 + w66;
-        /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+        /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
@@ -255,7 +255,10 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
     return status;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int free_rigid_body_cf4_cause(const double state[static 3], double h)
 {
     double same[3];

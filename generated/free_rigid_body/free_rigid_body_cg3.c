@@ -8,15 +8,15 @@
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 1.6e-16
  * scene:      Free rigid body on the sphere, group SO(3)
- * state:      [0..2] y: point that SO(3) acts on by rotation
+ * state:      [0..2] y: point on which SO(3) acts by rotation
  * left out:   1 evaluation of the field: equal values are computed once
  *             6 exponentials: exp(x).y is computed without exp(x)
- *             arguments for parameters, which are constants: alpha = 0
+ *             arguments for constant parameters: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit
+ *             an iteration for implicit stages: every stage is explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
- *             the mathematical library add to this
+ * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ *             mathematical library functions is not included
  * command:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -226,7 +226,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w34 - (w63 * c1_6 + (w57 * w65 + w58 * w66) * c2_6);
         const double new_m1 = w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6 + w62;
         const double new_m2 = w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6 + w61;
-        /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+        /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
@@ -252,7 +252,10 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
     return status;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int free_rigid_body_cg3_cause(const double state[static 3], double h)
 {
     double same[3];

@@ -7,12 +7,12 @@ order:      3, certificate: exact (the residuals of all order conditions up to t
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 1.6e-16
 scene:      Free rigid body on the sphere, group SO(3)
-state:      [0..2] y: point that SO(3) acts on by rotation
+state:      [0..2] y: point on which SO(3) acts by rotation
 left out:   1 evaluation of the field: equal values are computed once
             6 exponentials: exp(x).y is computed without exp(x)
-            arguments for parameters, which are constants: alpha = 0
+            arguments for constant parameters: alpha = 0
             the time: the scene does not depend on it
-            equation solving: every stage is explicit
+            an iteration for implicit stages: every stage is explicit
 operations: 84 add, 161 mul, 6 stumpff_12 a step
 command:    orderconds emit free_rigid_body --method cg:cg3 --target python -o .
 version:    orderconds 0.1.0
@@ -227,8 +227,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Find the cause of a failed step: it was too long if a step of size zero has a
-    finite result.
+    """Find the cause of a failed step. If a step of size zero succeeds, the cause is
+    the step size. Otherwise the cause is the state.
     """
     same = [0.0] * 3
     same[:] = state

@@ -9,17 +9,17 @@
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are at most 5.6e-17
  * scene:      Free rigid body on the sphere, group SO(3)
- * state:      [0..2] y: point that SO(3) acts on by rotation
+ * state:      [0..2] y: point on which SO(3) acts by rotation
  * left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are zero, or terms
  *             cancel
  *             1 evaluation of the field: equal values are computed once
  *             4 exponentials: exp(x).y is computed without exp(x)
- *             arguments for parameters, which are constants: alpha = 0
+ *             arguments for constant parameters: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit
+ *             an iteration for implicit stages: every stage is explicit
  * operations: 101 add, 164 mul, 4 stumpff_12 a step
- * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
- *             the mathematical library add to this
+ * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
+ *             mathematical library functions is not included
  * command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -228,7 +228,7 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double new_m0 = w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4 + m0;
         const double new_m1 = w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4 + m1;
         const double new_m2 = w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4 + m2;
-        /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+        /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
@@ -254,7 +254,10 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
     return status;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int free_rigid_body_rkmk2_rk4_cause(const double state[static 3], double h)
 {
     double same[3];

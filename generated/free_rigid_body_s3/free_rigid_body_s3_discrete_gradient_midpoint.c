@@ -20,8 +20,8 @@
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 for each matrix of the equations
  *             of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the equations of xi
- * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1408 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
+ *             margin of 1408 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -266,22 +266,22 @@ static int free_rigid_body_s3_discrete_gradient_midpoint_all_finite(const double
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
- * inverses of Newton's matrices.
+ * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
+ * first, and inverses of Newton's matrices.
  */
 struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t known; /* number of stored solutions */
-    double first; /* error of the last guess */
+    double first; /* error of the latest guess */
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
-    double guess[3]; /* extrapolation to the next step */
-    double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
+    double guess[3]; /* initial guess for the next step */
+    double values[32][3]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
+    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
     double inverse_1[9];
 };
 
-/* Coefficients of backward differences by order, the latest solution first. */
+/* Backward differences: coefficients of order k in row k, latest solution first. */
 static const double free_rigid_body_s3_discrete_gradient_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -326,8 +326,9 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * A backward difference times sign, without the terms before the index first. The term of the latest
- * solution is added last, so the other terms can be summed before that solution is known.
+ * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
+ * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * known.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -363,13 +364,13 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 }
 
 /*
- * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
- * one step later.
+ * Store a solution. The guess for the next solution is the value of the polynomial through the latest
+ * solutions, one step later.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
+    /* with fewer than three stored solutions, the guess is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -388,7 +389,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
+    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);
@@ -408,7 +409,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* extrapolate: the difference of the next order is zero for the new values */
+    /* choose the guess so that the backward difference of order degree + 1 is zero */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }
@@ -1054,7 +1055,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+    /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
@@ -1067,8 +1068,9 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
- * initial guesses if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
+ * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
+ * Each solution is the initial guess for a longer step (continuation in h).
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

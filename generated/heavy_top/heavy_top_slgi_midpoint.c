@@ -1,5 +1,5 @@
 /*
- * Heavy top as printed, T*SO(3): one step by slgi:midpoint
+ * Heavy top with inertia fixed in space, T*SO(3): one step by slgi:midpoint
  *
  * method:     family slgi, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
@@ -7,7 +7,7 @@
  *             zero in exact arithmetic)
  * digits:     with the coefficients rounded to double precision, the residuals of the order
  *             conditions are zero
- * scene:      Heavy top as printed, T*SO(3), group SO(3)
+ * scene:      Heavy top with inertia fixed in space, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of h = 0.01
  * state:      [0..8] q: element of SO(3), row by row
@@ -18,8 +18,8 @@
  *             105 add, 215 mul, 2 slope2, 2 slope3 for each matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the equations of xi1,
  *             n1
- * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1120 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, including a
+ *             margin of 1120 bytes; the stack of mathematical library functions is not included
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -368,22 +368,22 @@ static int heavy_top_slgi_midpoint_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
- * inverses of Newton's matrices.
+ * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
+ * first, and inverses of Newton's matrices.
  */
 struct heavy_top_slgi_midpoint_memory {
     size_t known; /* number of stored solutions */
-    double first; /* error of the last guess */
+    double first; /* error of the latest guess */
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
-    double guess[6]; /* extrapolation to the next step */
-    double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
+    double guess[6]; /* initial guess for the next step */
+    double values[32][6]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
+    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
     double inverse_1[36];
 };
 
-/* Coefficients of backward differences by order, the latest solution first. */
+/* Backward differences: coefficients of order k in row k, latest solution first. */
 static const double heavy_top_slgi_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -428,8 +428,9 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * A backward difference times sign, without the terms before the index first. The term of the latest
- * solution is added last, so the other terms can be summed before that solution is known.
+ * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
+ * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * known.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -474,13 +475,13 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 }
 
 /*
- * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
- * one step later.
+ * Store a solution. The guess for the next solution is the value of the polynomial through the latest
+ * solutions, one step later.
  */
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last solution; it is not tested */
+    /* with fewer than three stored solutions, the guess is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -502,7 +503,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
     if (memory->known < 16) {
         memory->known++;
     }
-    /* raise the degree while differences decrease; with a full memory, test every 8 steps */
+    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -519,7 +520,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
             }
         }
     }
-    /* extrapolate: the difference of the next order is zero for the new values */
+    /* choose the guess so that the backward difference of order degree + 1 is zero */
     heavy_top_slgi_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -854,7 +855,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise */
+    /* All values x are finite if their sum is finite or each x - x is 0. A sum may overflow. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -879,8 +880,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
- * initial guesses if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
+ * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
+ * Each solution is the initial guess for a longer step (continuation in h).
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,

@@ -1,4 +1,4 @@
-/* Heavy top as printed, T*SO(3): one step by slgi:midpoint: functions and status codes. heavy_top_slgi_midpoint.c has an example. */
+/* Heavy top with inertia fixed in space, T*SO(3): one step by slgi:midpoint: functions and status codes. heavy_top_slgi_midpoint.c has an example. */
 #ifndef HEAVY_TOP_SLGI_MIDPOINT_H
 #define HEAVY_TOP_SLGI_MIDPOINT_H
 
