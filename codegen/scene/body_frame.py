@@ -1,5 +1,6 @@
-"""A Hamiltonian in the body frame: H as a function of q and P = Ad*_q mu, and its field.
+"""A Hamiltonian and its field in the body frame.
 
+The Hamiltonian H is a function of q and of the momentum P = Ad*_q mu in the body frame.
 Let W be the gradient of H with respect to P. Let tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0 and fixed P,
 where e_b are the basis elements of the Lie algebra. The field in the body frame is (W, N). It determines the
 field (xi, n) in the space frame:
@@ -38,11 +39,12 @@ DIGITS digits, of which AGREEING digits must agree.
 
 @dataclass(frozen=True)
 class BodyField:
-    """The field in the body frame, as formulas in the coordinates of q and P. In these formulas the symbols
-    of mu denote P.
+    """The field in the body frame, as formulas in the coordinates of q and of the momentum P in the body
+    frame. The formulas use the symbols of mu for the components of P.
 
-    ``velocity`` is W, and ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
-    inverse of this matrix, as rows of numbers. Otherwise ``inverse`` is None.
+    The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W is a constant
+    invertible matrix times P, ``inverse`` is the inverse of this matrix, as rows of numbers. Otherwise
+    ``inverse`` is None.
     """
 
     velocity: tuple[Expr, ...]
@@ -52,7 +54,7 @@ class BodyField:
     def momentum(self, domain: Domain, W: Vector[S]) -> Vector[S]:
         """Return the momentum P in the body frame, given the velocity W in the body frame.
 
-        The attribute ``inverse`` must not be None.
+        The caller ensures that ``inverse`` is not None.
         """
         assert self.inverse is not None
         result: list[S] = []
@@ -136,8 +138,7 @@ def _in_body(
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
         # The kinetic energy cannot be computed at the neutral element, because the potential is singular
-        # there. With zero as kinetic energy the comparison below fails, so the formula of H is not split into
-        # V(q) + T(P).
+        # there. If ``kinetic`` is zero, ``split`` differs from H, so this function returns ``moved``.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -165,8 +166,8 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The test multiplies by a power of ten, because mpmath does not compare its numbers with
-            # fractions.
+            # The integer factor 10**AGREEING avoids a fraction as tolerance, because mpmath does not compare
+            # its numbers with fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
         except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.

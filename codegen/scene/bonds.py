@@ -39,10 +39,14 @@ def energies_of_bonds(
     offset from the site to the other site of the bond.
 
     ``y`` contains the coordinates of a site that occur in energies of bonds. In a Hamiltonian scene these are
-    the coordinates of q, otherwise all coordinates. The result contains two pairs for each bond. In V(y_i,
-    y_{i+offset}) the site is the first site, and in V(y_{i-offset}, y_i) the site is the second site.
-    SceneError is raised for an energy that does not contain both sites, or that contains coordinates outside
-    ``y``.
+    the coordinates of q, otherwise all coordinates.
+
+    The result contains two pairs for each element of ``bonds``, because the site i belongs to two such bonds.
+    It is the first site of the bond with the energy V(y_i, y_{i+offset}). It is the second site of the bond
+    with the energy V(y_{i-offset}, y_i).
+
+    SceneError is raised for an energy that does not contain coordinates of both sites, or that contains
+    coordinates outside ``y``.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []
@@ -55,7 +59,7 @@ def energies_of_bonds(
         read = {str(n.payload) for n in walk([V]) if n.op == "sym"}
         others = read & set(reader.coordinates[len(y) :])
         if others or not read & set(own) or not read & set(there):
-            missing = "no coordinate of one of its two sites"
+            missing = "coordinates of fewer than two sites"
             raise SceneError(
                 f"{what} contains {', '.join(sorted(others)) if others else missing}",
                 where=reader.name,

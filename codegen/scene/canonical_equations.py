@@ -19,8 +19,8 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components n_a = -<dH, e_a.q> of the force. ``slope`` contains the derivatives of H with
-    respect to the coordinates of q.
+    """Return the components n_a = -<dH, e_a.q> of the force, where e_a are the basis elements of the Lie
+    algebra. ``slope`` contains the derivatives of H with respect to the coordinates of q.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

@@ -3,9 +3,9 @@
 A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as the
 scene states them, in the coordinates of the scene. If the group has left translations, a form uses velocities
 and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
-factor of the group has a covering group with fewer coordinates, a form uses an element of this cover. For
-example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven equations
-for a unit quaternion and the momentum in the body.
+factor of the group has a covering group with fewer coordinates, a form uses an element of the covering
+group. For example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven
+equations for a unit quaternion and the momentum in the body.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.values import Bindings
 
 PRINTED = "printed"
-"""The key of the form that contains the equations as the scene states them."""
+"""The key (:attr:`ClassicalForm.key`) of the classical form with the equations as the scene states them."""
 
 
 @dataclass(frozen=True)
 class ClassicalForm:
-    """A form of a scene: its key, its name, and its equations as a problem on R^n.
+    """A classical form of a scene: its key, its name, and its equations as a problem on R^n.
 
     A *state of the form* is a point of this R^n.
 
@@ -61,16 +61,17 @@ class ClassicalForm:
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the scene, given a state of the form."""
+        """Return the state of the scene that belongs to the point ``state`` of R^n."""
         return tuple(evaluate(self.to_scene, domain, self.problem.values(domain, tuple(state))))
 
     def form_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the form, given a state of the scene near the initial state."""
+        """Return the point of R^n that belongs to ``state``, a state of the scene near its initial state."""
         return tuple(evaluate(self.from_scene, domain, self.scene.values(domain, tuple(state))))
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the forms of a scene: first the equations of the scene, then each form that the group provides.
+    """Return the classical forms of a scene. The first form contains the equations of the scene. The other
+    forms use the body frame or coordinates of covering groups.
 
     For each choice of coordinates, the frame is chosen in which the equations need fewer operations. The body
     frame needs fewer operations if the inertia is fixed in the body, and the space frame if the inertia is
@@ -84,9 +85,9 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
 
 
 def find_form(problem: Problem, key: str) -> ClassicalForm:
-    """Return the form of a scene with the given key.
+    """Return the classical form that has the key ``key``.
 
-    :class:`SceneError` is raised if no form has this key.
+    :class:`SceneError` is raised if no form of the scene has this key.
     """
     forms = classical_forms(problem)
     for form in forms:
@@ -111,8 +112,8 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define classical forms.
 
-    The first change leads to the body frame, and is yielded if the equations then need fewer operations. The
-    second change leads to covers of the factors of the group, and is yielded if a factor has a cover.
+    One change uses the body frame. It is yielded if the equations then need fewer operations. The other
+    change uses coordinates of covering groups. It is yielded if a factor of the group has a covering group.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
@@ -130,8 +131,9 @@ class _Leaf:
 
     ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the classical form. Among
     the components of an element of the Lie algebra, the first component of the factor has the index ``at``.
-    If ``own`` are coordinates of a covering group, ``cover`` is the factor, with the operations of its
-    covering. Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
+    If ``own`` are coordinates of a covering group, ``cover`` is equal to ``group``, and its type
+    :class:`Covered` gives access to the covering map. Otherwise ``cover`` is None, and ``own`` is equal to
+    ``symbols``.
     """
 
     group: LieGroup
@@ -221,10 +223,10 @@ def fresh(name: str, count: int, taken: set[str]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Change:
-    """A change of coordinates from a scene to a form.
+    """A change of coordinates from a scene to a classical form.
 
-    If ``covered`` is True, the form has coordinates on covers of the factors of the group. If ``body`` is
-    True, velocities and momenta are in the body frame.
+    If ``covered`` is True, each factor of the group that has a covering group is replaced by the covering
+    group. If ``body`` is True, velocities and momenta are in the body frame.
     """
 
     problem: Problem
@@ -261,8 +263,7 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The invariants of the scene are functions of its state, so they are composed with the map from the
-        # form to the scene.
+        # The invariants are functions of the state of the scene, so its symbols are replaced by ``to_scene``.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -288,13 +289,13 @@ class _Change:
         )
 
     def key(self) -> str:
-        """Return the key of the form, such as ``quaternion`` or ``body-matrix``."""
+        """Return the key of the classical form, such as ``quaternion`` or ``body-matrix``."""
         chosen = [leaf for leaf in self.leaves if leaf.cover is not None] or self.leaves
         short = next(leaf.noun for leaf in chosen if not leaf.group.abelian).rpartition(" ")[2]
         return short if self.covered else f"body-{short}"
 
     def name(self) -> str:
-        """Return the name of the form: the frame of its velocity or momentum, and the coordinates."""
+        """Return the name of the form: the frame of the velocity or momentum, and the coordinates."""
         nouns = [leaf.noun for leaf in self.leaves if not leaf.group.abelian]
         frame = "body" if self.body else "space"
         what = "momentum" if self.problem.paired else "velocity"
@@ -320,8 +321,8 @@ class _Change:
         parts = [leaf.cover.covering_formula for leaf in self.leaves if leaf.cover is not None]
         if self.body and self.momenta:
             parts.append(
-                "the momentum in the scene is Ad*_{g^-1} P, where P is the momentum in the body frame "
-                "(for rotation matrices, Ad*_{g^-1} P = g P)"
+                "the momentum in the scene is Ad*_{g^-1} P, where g is the group element and P is the "
+                "momentum in the body frame (for rotation matrices, Ad*_{g^-1} P = g P)"
             )
         return "; ".join(dict.fromkeys(parts))
 
@@ -362,7 +363,10 @@ class _Change:
         )
 
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the field of the scene in the frame of the form, as formulas in the symbols of the scene."""
+        """Return the field of the scene, as formulas in the symbols of the scene.
+
+        If ``body`` is True, the field is expressed in the body frame.
+        """
         problem = self.problem
         if not self.body:
             return tuple(roots)
@@ -375,8 +379,10 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in the body frame. If the factor has no left translations, return
-        the velocity in the space frame.
+        """Return the velocity of a factor in the body frame.
+
+        If the factor does not offer the capability :class:`LeftTranslation`, return the velocity in the space
+        frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)

@@ -29,13 +29,13 @@ Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
 computed from the field of the scene.
 
 The key of a pair is its name in messages. If the second formula is None, the first formula is compared with
-the velocity f.y.
+the velocity y' = f.y, where f is the field of the scene.
 """
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""Central differences have the step 10^-STEP_DIGITS. With 40 digits a difference has about 20 correct digits,
-and SLOPE_DIGITS digits are compared.
+"""The step of central differences is eps = 10^-STEP_DIGITS. Their error is about eps^2, so about 20 digits
+are correct. SLOPE_DIGITS digits are compared.
 """
 
 
@@ -87,7 +87,7 @@ def check_start(orbit: Orbit) -> None:
                 where=orbit.name,
                 expected=f"an element of {orbit.group.name}"
                 if orbit.action.on_itself
-                else f"a point on which {orbit.group.name} acts by {orbit.action.name}",
+                else f"a point of the manifold on which {orbit.group.name} acts by {orbit.action.name}",
                 hint=ROUNDED if abs(defect) < ROUNDING else "",
             )
     _check_invertible(orbit, start)
@@ -147,8 +147,8 @@ def check_equal(
 ) -> None:
     """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
 
-    If ``derived`` is None, the formulas of the scene are compared with the velocity f.y. Messages refer to
-    the formulas of the scene by the name ``what``.
+    If ``derived`` is None, the formulas of the scene are compared with the velocity y' = f.y. Messages refer
+    to the formulas of the scene by the name ``what``.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
@@ -187,7 +187,7 @@ def check_flow(
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
                     if not orbit.sized(x - y, (x, y, 1)):
                         raise SceneError(
-                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]} "
+                            f"the coordinate {orbit.symbols[k]} of the flow of {name} {verb} {orbit.text(x)} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, which follows from the equations of the part",

@@ -1,9 +1,10 @@
 """The operations from which discrete gradient methods are built: the energy, its trivialised differential,
 the discrete gradient (secant), and the bivector.
 
-The source is section 2.6 of H. Marthinsen's thesis. A field that preserves H has the form x' = f(x).x with f
-= i_{dH} omega, where omega is a bivector on g*. The trivialised differential gamma(x) = R*_x dH is an element
-of g*. For an element e of the algebra g, the pairing <gamma, e> is the derivative of H along e.x.
+The source is section 2.6 of H. Marthinsen's thesis. A Lie group with the algebra g acts on the points x. The
+trivialised differential gamma(x) of H is an element of g*. For an element e of g, the pairing <gamma(x), e>
+is the derivative of H(exp(eps e).x) at eps = 0. A field that preserves H has the form x' = f(x).x with f =
+omega(gamma, .), where the bivector omega is a skew bilinear form on g*.
 
 On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge f)/|gamma|^2, where the
 Euclidean inner product of coordinates identifies gamma with an element of g. This formula requires that f
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from codegen.scene.sites import Sites
 
 ENERGY = "energy"
-"""The name of the invariant of a field scene that discrete gradient methods preserve."""
+"""For a field scene, discrete gradient methods preserve the invariant with this name."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 """The names of the operations that :func:`apply` evaluates. A program for one step may contain these
@@ -38,7 +39,7 @@ operations.
 
 
 class Conservative(Protocol):
-    """The attributes of a problem that the operations of this module read."""
+    """A problem with the attributes that this module uses."""
 
     @property
     def group(self) -> LieGroup:
@@ -87,7 +88,7 @@ def energy_of(problem: Conservative) -> Expr | None:
 def apply(problem: Conservative, d: Domain, name: str, args: Values) -> Value:
     """Return the value of the operation ``name``, one of :data:`OPERATIONS`.
 
-    KeyError is raised if the operation reads the energy, but the problem has no energy.
+    KeyError is raised if the operation needs the energy, but the problem has no energy.
     """
     match name:
         case "energy":
@@ -111,8 +112,8 @@ def _slopes(root: Expr, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
 
 
 def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
-    """Return the covector gamma(y). For each e in the algebra, <gamma, e> is the derivative of H(exp(eps
-    e).y) at eps = 0.
+    """Return the covector gamma(y). For each e in the Lie algebra, <gamma(y), e> is the derivative of
+    H(exp(eps e).y) at eps = 0.
     """
     slopes: Vector[S] = tuple(evaluate(_slopes(_root(problem), problem.symbols), d, problem.values(d, y)))
     basis: tuple[Vector[S], ...] = units(d, problem.group.dim)
@@ -120,8 +121,9 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return the element omega_y(alpha, .) of the algebra, for a covector alpha. If alpha is gamma(y), the
-    result is f(y).
+    """Return the element omega_y(alpha, .) of the Lie algebra, for a covector alpha.
+
+    If alpha is the result of :func:`differential` at y, the result is the value f(y) of the field.
     """
     if canonical(problem):
         return _canonical(problem.group, d, y, alpha)

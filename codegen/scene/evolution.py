@@ -52,7 +52,7 @@ class Evolution:
     missing: tuple[int, ...] = ()
 
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
-        """Return the coordinates of the state y.
+        """Return the coordinates of the state y in which the Taylor polynomials are computed.
 
         If y contains the momentum in the body frame, pass the group as ``frame``. If y contains the momentum
         in space, pass None.
@@ -67,7 +67,7 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
+        """Convert the coordinates ``moved`` to a state, and project it onto the manifold that contains y.
 
         The momenta in y and in the result are in the same frame. If this is the body frame, pass the group as
         ``frame``. If it is the space frame, pass None.
@@ -91,9 +91,11 @@ class Evolution:
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
         """Return the coordinates after a step from the state y at the time t.
 
-        The coordinates are the values, at t + h, of the solution's Taylor polynomial of the given degree.
+        They are the values of Taylor polynomials at the time t + h. The polynomials have the degree
+        ``degree``.
         """
-        # The coefficient of degree k includes h^k, so the polynomial is the sum of the coefficients.
+        # The coefficient of degree k includes the factor h^k, so the value at t + h is the sum of the
+        # coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
@@ -111,8 +113,8 @@ class Evolution:
     ) -> list[list[Coefficient]]:
         """Return for each coordinate the Taylor coefficients of the degrees 0 to ``degree``.
 
-        The variable of the polynomials is the time since t, divided by ``scale``. A coefficient that is zero
-        for all states is None.
+        The coefficient of degree k is the k-th time derivative of the coordinate at the time t, multiplied by
+        ``scale``^k / k!. A coefficient that is zero for all states is None.
         """
         return self.recurrence(domain, start, t, scale).extend(degree)
 
@@ -123,8 +125,8 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of two power series in the recurrence. For each degree, a product
-        costs one sum over lower degrees.
+        """Return the number of products of two power series in the recurrence. In the loop over the
+        degrees, each product becomes one convolution sum.
         """
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
@@ -200,9 +202,9 @@ def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) 
 
 
 def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
-    """Return formulas for the derivatives of q and of the momentum P in the body frame.
+    """Return formulas for the time derivatives of q and P, where P is the momentum in the body frame.
 
-    The symbols of mu denote P in these formulas.
+    The formulas use the symbols of mu for the components of P.
     """
     body = scene.body
     assert body is not None
@@ -230,6 +232,6 @@ def _shorter(form: Evolution) -> Iterator[Evolution]:
 
 
 def _of_element(group: LieGroup) -> LieGroup:
-    """Return the group to which the first coordinates of a state belong: G for a state in T*G."""
+    """Return G if ``group`` is a cotangent bundle T*G, otherwise return ``group``."""
     bundle = group.offers(CotangentBundle)
     return group if bundle is None else bundle.base

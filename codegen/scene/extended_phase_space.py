@@ -86,7 +86,8 @@ def _timed(problem: Problem) -> Expr:
     """Return the Hamiltonian; raise SceneError if the problem has no Hamiltonian that depends on time."""
     if problem.hamiltonian is None or not problem.paired:
         raise SceneError(
-            f"{problem.name} has no momentum u", expected="a Hamiltonian scene, or a linear scene y' = A(t).y"
+            f"{problem.name} has no momentum u conjugate to the time",
+            expected="a Hamiltonian scene, or a linear scene y' = A(t).y",
         )
     if not _reads(problem.hamiltonian, TIME):
         raise SceneError(

@@ -69,11 +69,12 @@ class Run:
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """A figure: its name in commands, its title, its caption, and the runs that it shows.
+    """A figure: its name, its title, its caption, and the runs that it shows.
 
-    ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". Some kinds of figures
-    compare all runs with the run ``reference``. All other kinds draw this run as a thin line.
-    ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
+    The command ``figure`` selects a figure by its name. ``source`` is the name of the printed figure, such as
+    "Fig. 2.6 of the thesis". Some kinds of figures compare all runs with the run ``reference``. All other
+    kinds draw this run as a thin line. ``shows_lattices`` is True for the kinds of figures that show chains
+    and lattices.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -90,9 +91,9 @@ class Figure:
 class PlaneCurves(Figure):
     """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
 
-    With ``panels`` each run has a panel of its own. ``bounds`` contains the limits of the axes: (left, right,
-    low, high). By default the limits include all points of the panel. Markers are drawn at every state if
-    ``marked`` is True. With ``dots`` the states are drawn as dots without lines between them.
+    If ``panels`` is True, each run has a panel of its own. ``bounds`` contains the limits of the axes: (left,
+    right, low, high). By default the limits include all points of the panel. If ``marked`` is True, markers
+    are drawn at every state. If ``dots`` is True, the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -107,9 +108,9 @@ class PlaneCurves(Figure):
 class SphereCurves(Figure):
     """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
 
-    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. With
-    ``panels`` each run has a panel of its own. With ``dots`` the states are drawn as dots without lines
-    between them.
+    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. If
+    ``panels`` is True, each run has a panel of its own. If ``dots`` is True, the states are drawn as dots
+    without lines between them.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
@@ -139,9 +140,9 @@ Place: TypeAlias = tuple[Quantity, Quantity, Quantity]
 class Motion(Figure):
     """The motion of a body that consists of bars, as an animation, in orthogonal projection.
 
-    - ``bars``: the two ends of each bar, by label.
+    - ``bars``: a map from the label of each bar to the two ends of the bar.
     - ``trace``: a point whose path is shown.
-    - ``fixed``: points that do not move, by label.
+    - ``fixed``: a map from labels to points that do not move.
     - ``stills``: the number of equally spaced times at which the figure also shows the bars.
     - ``seconds``: the duration of the animation, which is repeated. The animation stops while the pointer is
       on the figure.
@@ -160,8 +161,8 @@ class Motion(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
-    """Curves on a torus in the chart of two angles. Opposite edges of the chart are the same line on the
-    torus.
+    """Curves on a torus, drawn in the plane of its two angles. Opposite edges of the picture are the same
+    line on the torus.
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
@@ -184,7 +185,7 @@ class TorusCurves(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TimeSeries(Figure):
-    """Quantities against time. ``quantities`` maps labels to formulas.
+    """Quantities, plotted against time. ``quantities`` maps labels to formulas.
 
     The reference curve shows the first quantity of the run ``reference``. If ``difference`` is False, the
     reference curve is drawn as a separate line with the label ``reference_label``. If ``difference`` is True,
@@ -201,12 +202,12 @@ class TimeSeries(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeMeans(Figure):
-    """Means over all sites of a lattice against time. ``quantities`` maps labels to formulas.
+    """Means over all sites of a lattice, plotted against time. ``quantities`` maps labels to formulas.
 
     The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
     coordinates of neighbours. ``shape`` contains the number of sites in each dimension. ``start`` is a
-    function of this shape (n1, ..., nd). It returns the initial states as an array of shape (n1, ..., nd, m),
-    where m is the number of coordinates of a site.
+    function with ``shape`` = (n1, ..., nd) as its argument. It returns the initial states as an array of
+    shape (n1, ..., nd, m), where m is the number of coordinates of a site.
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -218,7 +219,7 @@ class LatticeMeans(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation(Figure):
-    """The largest deviation of a quantity, on a logarithmic axis against time.
+    """The largest deviation of a quantity, plotted against time. The vertical axis is logarithmic.
 
     The deviation is the difference between the quantity and its value along the reference run. Without a
     reference run, the deviation is the difference from the initial value. The figure shows the maximum over
@@ -233,7 +234,7 @@ class Deviation(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Scan(Figure):
-    """The distance of the final state from the end of the reference run, against a parameter.
+    """The distance of the final state from the end of the reference run, plotted against a parameter.
 
     The :class:`Sweep` of each run contains the values of the parameter. The parameter value with the least
     distance is marked. A minimisation finds this value, so it may lie between two values of the sweep.
@@ -244,7 +245,7 @@ class Scan(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Orders(Figure):
-    """The error at the end of the time span against the step size, with one curve for each run.
+    """The error at the end of the time span, plotted against the step size, with one curve for each run.
 
     Each run is repeated ``halvings`` times; each repetition halves the step size. The error is the distance
     from the reference solution of the scene (``codegen.lab.distance``). For each number p in ``orders``, the

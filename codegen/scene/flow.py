@@ -20,8 +20,8 @@ class Flow(ABC):
     """The exact flow of one part of the Hamiltonian, in closed form over any number domain.
 
     ``timed`` is True if the part depends on t. The flow then keeps t fixed while the state moves. The
-    argument ``values`` of the methods maps all symbols (the state, the parameters and t) to their values at
-    the start.
+    argument ``values`` of the methods maps all symbols (the state, the parameters and t) to their values
+    before the motion along the flow.
     """
 
     timed: bool = False

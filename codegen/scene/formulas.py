@@ -22,7 +22,7 @@ RESERVED = {
     "t": "t is the time; formulas may contain it, but it cannot be a coordinate or a parameter",
     "h": "h is the step size",
 }
-"""The names that a scene may not use for its own symbols. The value of each name is the reason."""
+"""The names that a scene may not use for its own symbols, and the reason for each name."""
 
 
 class Reader:
@@ -52,7 +52,7 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Return the default values of the parameters in the formulas that were read, by name."""
+        """Return the default value of each parameter in the formulas read so far. The keys are the names."""
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:
@@ -121,7 +121,7 @@ class Reader:
             elif symbol.name not in known:
                 hint = f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter'
                 if symbol.name in RESERVED or symbol.name in self.coordinates:
-                    hint = f"{what} is a value at the start of the span: replace {symbol.name} by a number"
+                    hint = f"{what} must be constant: replace {symbol.name} by a number"
                 raise SceneError(
                     f"the symbol {symbol.name} in {what} has no value",
                     where=self.name,

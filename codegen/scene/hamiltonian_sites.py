@@ -61,8 +61,8 @@ def HamiltonianSiteScene(
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the element q of the missing neighbour. It is a column of
       ``group.size`` formulas in q, t and parameters, or a mapping from offsets to such columns. Constants
-      describe a clamped end. Formulas in t describe a driven end. At a free end the element must not exert a
-      force.
+      describe a clamped end. Formulas in t describe a driven end. For a free end, give an element for which
+      the bond exerts no force, often ``q`` itself.
     - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts with the exact flow
       of all bonds.
 
@@ -116,7 +116,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
         )
     if len({len(offset) for offset in given}) > 1:
         raise SceneError(
-            f"bonds with offsets of different lengths: {', '.join(map(str, given))}",
+            f"bond offsets with different numbers of entries: {', '.join(map(str, given))}",
             where=name,
             expected="offsets with one entry for each dimension of the lattice",
         )

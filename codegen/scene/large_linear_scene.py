@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     the column index is the second argument of the function."""
 
 MOST_ROWS = 8
-"""The largest number of rows for which the field is also written in coordinates of GL(n).
+"""The largest number n of rows for which the problem also contains a formula for each of the n^2 entries of
+A(t). The entries are the coordinates of A(t) in the Lie algebra of GL(n).
 
-Commands such as ``stability``, ``localerror`` and ``bench`` need the field in these coordinates. For n rows
-the field has n^2 formulas, one for each entry of A(t).
+Commands such as ``stability``, ``localerror`` and ``bench`` need these formulas.
 """
 
 
@@ -55,9 +55,9 @@ def LargeLinearScene(
       columns are the first unit vectors.
     - ``span``: the rational time interval.
 
-    The families magnus, cf_magnus, fer, rkmk, cf and cg can be emitted for this scene. Their steps apply
-    exponentials to y by products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the
-    code depends on n only if entries are given as lists.
+    The families magnus, cf_magnus, fer, rkmk, cf and cg can be emitted for this scene. Their steps never
+    form products or exponentials of matrices (:mod:`codegen.ir.linear_array_step`). If all entries are given
+    by formulas, the length of the emitted code does not depend on n.
 
     :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains
     :func:`codegen.scene.unknown`, and for a state of a wrong size.

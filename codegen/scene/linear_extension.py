@@ -65,7 +65,7 @@ def without_momentum_rate(problem: Problem) -> Problem:
 def _hamiltonian(problem: Problem) -> Expr:
     """Return H = (q'.p - p'.q)/2. Raise SceneError if H does not depend on the time, or if Hamilton's
     equation for H is not the equation of the problem."""
-    refusal = f"the linear problem {problem.name} has no momentum u"
+    refusal = f"the linear problem {problem.name} has no momentum u conjugate to the time"
     if not problem.roots:
         problem.require_formulas()
     (block,) = problem.state

@@ -38,9 +38,9 @@ def LinearScene(
     """Return the scene y' = A(t).y for a group acting on a manifold.
 
     ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
-    matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` are the
-    coordinate symbols for ``velocity`` and ``invariants``, by default ``y0``, ``y1`` and so on. All other
-    arguments are those of :func:`codegen.scene.FieldScene`. For y' = y A(t), use the action
+    matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` contains
+    the symbols of the coordinates in ``velocity`` and ``invariants``. By default they are named y0, y1 and so
+    on. All other arguments are those of :func:`codegen.scene.FieldScene`. For y' = y A(t), use the action
     ``RightMultiplication()`` and pass -A in place of A.
 
     ``steps`` defines additional methods y1 = M y0 by formulas for the matrix M. It maps the name of each
@@ -83,7 +83,7 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the methods that the scene defines by formulas, by name.
+    """Return the methods that the scene defines by formulas. The keys of the result are their names.
 
     SceneError is raised in four cases:
 

@@ -21,16 +21,16 @@ class MatrixField:
 
     program: ArrayProgram
     linear: ClassVar[bool] = False
-    """True if the field is linear in the matrix, and its generator does not depend on the matrix."""
+    """True if V(X) = A X with a matrix A that does not depend on X."""
 
     @property
     def rows(self) -> int:
-        """The number of rows of X."""
+        """The number of rows of the matrix X, which is the state."""
         return self.program.argument.rows
 
     @property
     def columns(self) -> int:
-        """The number of columns of X."""
+        """The number of columns of the matrix X, which is the state."""
         return self.program.argument.columns
 
     def reads(self, symbol: str) -> bool:
@@ -41,13 +41,16 @@ class MatrixField:
     def velocity(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return V(X), row by row."""
+        """Return the entries of V(X) row by row. ``x`` contains the entries of the matrix X."""
         return tuple(self.program.evaluate(domain, x, symbols))
 
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return the n x n matrix W X^T - X W^T, row by row. Use this method only for small matrices."""
+        """Return the n x n matrix S with V(X) = S X, row by row. ``x`` contains the entries of X.
+
+        Use this method only for small matrices.
+        """
         n, k = self.rows, self.columns
         v, half = self.velocity(domain, x, symbols), domain.rational(1, 2)
 

@@ -161,7 +161,7 @@ def test_a_splitting_conserves_the_momentum_of_a_free_chain():
     ("options", "message"),
     [
         ({"bonds": []}, "a lattice without bonds"),
-        ({"bonds": [Bond((1,), SO3().point("q")[0])]}, "no coordinate of one of its two sites"),
+        ({"bonds": [Bond((1,), SO3().point("q")[0])]}, "coordinates of fewer than two sites"),
         ({"bonds": [Bond((1,), SO3().dual("mu")[0])]}, "contains mu0"),
         ({"bonds": [Bond((0,), SO3().point("q")[0])]}, r"a neighbour with the offset \(0,\)"),
         ({"boundary": "open"}, r"no state for the neighbour \(-1,\)"),
@@ -179,7 +179,7 @@ def test_wrong_energies_are_refused(options, message):
 def test_bonds_of_different_dimensions_are_refused():
     q = SO3().point("q")
     listed = [Bond(o, q[0] * neighbour(q, o)[0]) for o in ((1,), (0, 1))]
-    with pytest.raises(SceneError, match="bonds with offsets of different lengths"):
+    with pytest.raises(SceneError, match="bond offsets with different numbers of entries"):
         spinning(bonds=listed)
 
 

@@ -108,7 +108,7 @@ def test_lattices_without_a_discrete_gradient_are_refused(scene, options, messag
         # The state outside follows the site, and its force is not the derivative of an energy.
         ({"outside": (S[1], S[0], 1)}, "expected an energy that is constant"),
         ({"bonds": (Bond((2,), -S.dot(neighbour(S, (2,)))),)}, r"a bond with the offset \(2,\)"),
-        ({"bonds": (Bond((1,), S[0]),)}, "no coordinate of one of its two sites"),
+        ({"bonds": (Bond((1,), S[0]),)}, "coordinates of fewer than two sites"),
     ],
 )
 def test_energies_that_are_not_constant_are_refused(options, message):

@@ -129,7 +129,10 @@ def test_a_part_without_time_takes_u():
 @pytest.mark.parametrize(
     ("name", "why"),
     [
-        ("driven_spin+u", "driven_spin has no momentum u; expected a Hamiltonian scene"),
+        (
+            "driven_spin+u",
+            "driven_spin has no momentum u conjugate to the time; expected a Hamiltonian",
+        ),
         ("dipole+u", "the Hamiltonian of dipole does not depend on time"),
     ],
 )

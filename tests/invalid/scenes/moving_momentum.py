@@ -1,4 +1,4 @@
-# 9: mu0[0] is a value at the start of the span: replace t by a number
+# 9: mu0[0] must be constant: replace t by a number
 from sympy import Symbol, eye
 
 from codegen.groups import SO3
