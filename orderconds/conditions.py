@@ -1,7 +1,7 @@
-"""An order condition consists of a tree, a formula in the coefficients of the method, and a number.
+"""An order condition consists of a tree, a formula in the coefficients of the method, and a number ``rhs``.
 
-The formula is the coefficient of the tree in the series of the method. The number ``rhs`` is the coefficient
-of the tree in the series of the exact flow. A condition holds if ``formula = rhs``. A method has order p if
+The formula is the coefficient of the tree in the series of the method. The number is the coefficient of the
+tree in the series of the exact flow. A condition holds if ``formula = rhs``. A method has order p if
 and only if all conditions of the orders 1, ..., p hold.
 """
 
@@ -33,8 +33,8 @@ class OrderCondition:
     - ``source`` is the formula of the left-hand side, or a function that returns the formula.
     - ``key`` is the tree in the encoding of the family.
     - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
-      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<tree>`` denotes the left-hand
-      side for a tree.
+      the left-hand sides of other conditions, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` denotes
+      the left-hand side of the condition whose ``tree`` is x.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
@@ -52,22 +52,22 @@ class OrderCondition:
 
     @cached_property
     def formula(self) -> Formula:
-        """The left-hand side, with readable index names."""
+        """The left-hand side of the condition, with readable index names."""
         return named(self.source if isinstance(self.source, Formula) else self.source())
 
     @cached_property
     def expression(self) -> str:
-        """The left-hand side in ASCII."""
+        """The left-hand side of the condition as ASCII text."""
         return self.formula.text()
 
     @property
     def latex(self) -> str:
-        """The left-hand side in LaTeX."""
+        """The left-hand side of the condition in LaTeX."""
         return self.formula.latex()
 
     @property
     def latex_equation(self) -> str:
-        """The whole equation in LaTeX."""
+        """The condition in LaTeX, as the equation of its two sides."""
         return f"{self.latex} = {latex_fraction(self.rhs)}"
 
     def sympy(self) -> Any:

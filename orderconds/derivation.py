@@ -107,7 +107,7 @@ def derive(
     :class:`~orderconds.errors.InputError` in these cases:
 
     - The order is not an integer from 1 to 20.
-    - An order up to ``order`` has too many trees.
+    - For one of the orders 1, ..., ``order``, there are too many trees.
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.
@@ -124,7 +124,7 @@ def derive(
 
     if explicit and stages is None:
         raise InputError(
-            "explicit has no effect without stages", where="derive", expected="a number of stages"
+            "'explicit' has no effect without 'stages'", where="derive", expected="a number of stages"
         )
     order = integer(order, "order", CONDITION_ORDER)
     stages = None if stages is None else integer(stages, "stages", EXPANDED_STAGES)

@@ -1,4 +1,4 @@
-"""``orderconds refine``: replace decimals by exact coefficients, or by longer decimals with a proof."""
+"""``orderconds refine``: make the coefficients of a tableau exact, or compute and prove more digits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 from orderconds.tableau import Tableau, dumps
 
-UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give a method of this order"
+UNKNOWN = (
+    "no method of this order was found whose coefficients are fractions or numbers p + q sqrt(d) near the "
+    "given coefficients"
+)
 
 
 @click.command(name="refine")
@@ -22,7 +25,7 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
     "--json",
     "as_json",
     is_flag=True,
-    help="Print, as JSON, the new digits, the names of the decimals that were kept fixed, and the proof.",
+    help="Print a JSON record: the new digits, the names of decimals that were kept fixed, and the proof.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
@@ -31,11 +34,12 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
     kept fixed (pins), and a record of the old digits.
 
-    If FILE has no [proof] table, and its coefficients are binary floats or rounded decimals, recognise
-    fractions and numbers p + q sqrt(d), and prove that the exact method has the same order. The suffix of the
-    output file determines its format. The format on stdout is TOML.
+    If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
+    p + q sqrt(d), where p, q and d are rational. Prove that the exact method has the same order. The suffix
+    of the output file determines its format. The format on stdout is TOML.
 
-    Exits with 0 if the new coefficients are proved, 1 if not, 2 for a file that cannot be read.
+    Exits with 0 if new coefficients were found and proved to satisfy the conditions, with 1 if not, and with
+    2 if the file cannot be read.
 
     \b
     Examples:
@@ -75,7 +79,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
     """Write the tableau with exact coefficients and return 0.
 
-    Return 1 if the exact coefficients are not recognised, or if no coefficient is rounded.
+    Return 1 if no exact coefficients are found, or if all coefficients of the tableau are exact already.
     """
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of

@@ -46,8 +46,9 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Return a context manager that shows a message. The value after ``as`` is a function that shows a new
-    message.
+    """Return a context manager that shows a message.
+
+    In ``with working("deriving") as show``, the function ``show`` replaces the message by a new one.
 
     If the output is not a terminal, messages are shown only with ``--verbose``, as lines on stderr.
 
@@ -70,9 +71,9 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    The value after ``as`` is a function: call it with the name of each finished item. ``total`` is the number
-    of items, or None. On a terminal, a progress bar is shown. If the output is not a terminal, a line for
-    each item is shown, but only with ``--verbose``.
+    In ``with counting("measuring") as done``, ``done`` is a function: call it with the name of each finished
+    item. ``total`` is the number of items, or None. On a terminal, a progress bar is shown. If the output
+    is not a terminal, a line for each item is shown, but only with ``--verbose``.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -129,7 +130,7 @@ class _Lines:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 
     def finish(self, text: str) -> None:
-        """Count one finished item and write a line with its name."""
+        """Count one finished item, and write a line with its name ``text``."""
         self.finished += 1
         if self.total is None:
             self.show(f"{self.finished}  {text}")

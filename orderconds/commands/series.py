@@ -10,7 +10,12 @@ from orderconds.commands import screen
 @click.command(name="series")
 @click.argument("name")
 @click.option(
-    "--order", "-p", type=click.IntRange(1, 14), required=True, help="Print brackets up to this weight."
+    "--order",
+    "-p",
+    type=click.IntRange(1, 14),
+    required=True,
+    help="The largest weight of the printed brackets. The weight of a bracket is the sum of the weights of "
+    "its letters.",
 )
 @click.option(
     "--basis",
@@ -27,7 +32,7 @@ def command(name: str, order: int, basis: str, as_json: bool) -> int:
     bch            log(exp A exp B)
     symmetric-bch  log(exp(A/2) exp(B) exp(A/2))
     magnus         log Y(1) for Y' = (X1 + t X2 + t^2 X3 + ...) Y; Xk has weight k
-    dexp           dexp_U(X)
+    dexp           dexp_U(X) = sum_k ad_U^k X/(k+1)!, where ad_U X = [U, X]
     dexpinv        the inverse of dexp_U, applied to X
 
     \b

@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 @click.option(
     "--low-storage",
     is_flag=True,
-    help="Search only for schemes with two registers (2N), K <- A_i K + F(Y), Y <- exp(h B_i K) Y.",
+    help="Search only for schemes with two registers K and Y (2N): each stage i computes K <- A_i K + F(Y), "
+    "then Y <- exp(h B_i K) Y.",
 )
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
@@ -54,8 +55,8 @@ if TYPE_CHECKING:
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="A linear equation for the coefficients and, in a Butcher tableau, for the nodes c_i. "
-    "The option may be repeated.",
+    help="Require this linear equation of the coefficients. In a Butcher tableau, the equation may also "
+    "contain the nodes c_i. The option may be repeated.",
 )
 @click.option(
     "--positive",
@@ -81,19 +82,20 @@ if TYPE_CHECKING:
 @click.option(
     "--rkn",
     is_flag=True,
-    help="For the family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0.",
+    help="For the family splitting: assume that the vector field is the sum of two parts T and V with "
+    "[V,[V,[V,T]]] = 0.",
 )
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
     help="Search from all random starts, and write the method with the least principal error. The principal "
-    "error is the norm of the residuals of the next order.",
+    "error of a method of order p is the norm of the residuals of its order conditions of order p + 1.",
 )
 @click.option(
     "--starts",
     type=click.IntRange(*STARTS),
-    help="The number of random starts for each parametrisation of the tableau.  [default: 4096, or 1024 if "
-    "--minimise is given]",
+    help="The number of random starts for each parametrisation of the coefficients that the search tries.  "
+    "[default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
 @click.option(
@@ -116,11 +118,12 @@ if TYPE_CHECKING:
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
-    """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
+    """Find a method of FAMILY with the given stages and order, prove its order, and write its tableau.
 
-    Exits with 0 if a method was found and proved, 1 if no method was found or no method exists, 2 for
-    contradictory options. The same seed gives the same file for any number of processes. If a search is
-    interrupted, the checkpoint file contains its finished batches, and the same command continues the search.
+    Exits with 0 if a method was found and its order was proved, with 1 if no method was found or no method
+    exists, and with 2 if options contradict each other. The same seed gives the same file for any
+    number of processes. If a search is interrupted, the checkpoint file contains its finished batches, and
+    the same command continues the search.
 
     \b
     Examples:
@@ -163,7 +166,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
-    # A symmetric method of odd order p - 1 also has order p, so its search needs no trees of order p.
+    # Every search needs the trees up to order p - 1. A search for symmetric methods of even order p needs no
+    # trees of order p, because a symmetric method of order p - 1 also has order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -236,7 +240,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
-            f"was found; the least norm of residuals is {outcome.best:.3g}",
+            f"was found; the least norm of the residuals in all random starts is {outcome.best:.3g}",
             err=True,
         )
         for line in outcome.tried:
@@ -262,5 +266,5 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo("the conditions imply that the products above are zero;")
-    click.echo(f"the sum of the products is {proof.consequence}, but {proof.reason}")
+    click.echo("if all conditions hold, every product above is zero, and so is the sum of the products;")
+    click.echo(f"this sum is {proof.consequence}, but {proof.reason}")

@@ -22,7 +22,11 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 
 @click.command(name="table")
 @click.argument("methods", nargs=-1, metavar="[METHOD]...", shell_complete=completing(tableau_names))
-@click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
+@click.option(
+    "--write",
+    metavar="FILE",
+    help="Replace the table in FILE. Comments in FILE mark the begin and the end of the table.",
+)
 @click.option(
     "--check", "against", metavar="FILE", help="Exit with status 1 if the table in FILE is out of date."
 )
@@ -31,8 +35,8 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a table with one line for each tableau of the library. A line contains the orders of the tableau.
-    For the family of highest order, it also contains the number of exponentials, the norm of the leading
-    error and the certificate. Exits with 1 if --check finds a different table.
+    For the family with the highest order, it also contains the number of exponentials, the norm of the
+    leading error and the certificate. Exits with 1 if --check is given and the table in FILE is out of date.
 
     With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
     FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
@@ -91,9 +95,10 @@ class Butcher(TypedDict):
 
 
 def butcher(method: str) -> Butcher:
-    """Return the order and the Butcher tableau of ``method``, a name or FAMILY:NAME.
+    """Return the order and the Butcher tableau of a method.
 
-    Without FAMILY, the order is computed in the family with the highest claimed order.
+    ``method`` is the name of a tableau, or FAMILY:NAME. Without FAMILY, the order is computed in the
+    family with the highest claimed order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -168,8 +173,8 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key of a claim. Claims of higher order come first. Among claims of equal order, claims
-    in families on groups come first."""
+    """Return the sort key of a claim. Claims of higher order come first. Among claims of equal order, the
+    claims for families of Lie group methods come first."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -180,10 +185,10 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 def _around(path: str) -> tuple[str, str, str]:
     """Return the text of a file, the text before the table, and the text after the table.
 
-    Raise InputError if the file has no markers around the table.
+    Raise InputError if the comments that mark the begin and the end of the table are missing.
     """
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
-        raise InputError("no markers for the table", where=path, expected=f"{BEGIN} and {END}")
+        raise InputError("no comments around the table", where=path, expected=f"{BEGIN} and {END}")
     return text, text[:start], text[end + len(END) :]

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
 ) -> int:
-    """Enumerate the trees of one KIND with P vertices.
+    """Enumerate the trees of one KIND with a given number of vertices.
 
     \b
     rooted       rooted trees, unordered                       rk
@@ -52,10 +52,13 @@ def command(
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
+    The last column contains the families whose order conditions belong to these trees. Two halves of a tree
+    are the subtrees on both sides of an edge.
+
     In text drawings the root is in the first line. In pictures (--svg) the root is at the bottom. A directed
     edge leads from a derivative in q to a derivative in p (or mu). A diamond (in text drawings: an L) is a
-    coadjoint action on mu. A note such as (>*>) after a vertex shows the order of its edges: > is a branch, *
-    the edge to the parent.
+    coadjoint action on mu. A note such as (>*>) after a vertex lists its edges in their order: the sign >
+    is a branch, and * is the edge to the parent.
 
     \b
     Examples:
@@ -67,7 +70,7 @@ def command(
 
     chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
-        raise click.UsageError("--count prints only a number; leave --draw and --explain out")
+        raise click.UsageError("--count prints only a number; omit --draw and --explain")
     if not count or svg is not None:
         members = trees(kind, order)  # This call raises an InputError if there are too many trees.
     if svg is not None:

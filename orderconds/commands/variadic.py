@@ -2,7 +2,7 @@
 
 In commands of the class :class:`Variadic`, a repeatable option after the first argument may have several
 values: ``bench dipole --method cf4 rkmk:rk4``. A repeatable option before the first argument has one value:
-``bench --method cf4 dipole``. The next word is then the argument.
+in ``bench --method cf4 dipole``, the word ``dipole`` is the argument.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """If an option has several values, insert its name before each value after the first. Then call
-        click's parser."""
+        """Repeat the name of an option for each of its values, and call click's parser: ``-m a b`` becomes
+        ``-m a -m b``."""
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
         valued = {name for p in options if not p.is_flag for name in p.opts}

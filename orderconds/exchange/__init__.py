@@ -1,10 +1,10 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
-same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file. The other
-formats omit the table ``[proof]``. Floats in a NumPy archive are doubles. A decimal from another program
-counts as a double if it is the printed form of a double. Any other decimal counts as rounded (``~``) if it
-has at least 12 significant digits. A shorter decimal is exact.
+The text of an imported tableau is never executed as code. If a method is exported and imported again,
+its coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
+file. The other formats omit the table ``[proof]``. Floats in a NumPy archive are doubles. A decimal from
+another program counts as a double if it is the printed form of a double. Any other decimal counts as rounded
+(``~``) if it has at least 12 significant digits. A shorter decimal is exact.
 """
 
 from __future__ import annotations
@@ -74,8 +74,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data`` with a name. If ``data`` contains embedded weights without their order, compute and add
-    the order."""
+    """Return ``data`` with the key ``name``. If embedded weights have no order, compute and add it."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -86,7 +85,7 @@ def _completed(data: Data, where: str, name: str) -> Data:
 
 
 def order_on_vector_spaces(tableau: Tableau) -> int:
-    """Return the order of a method on vector spaces.
+    """Return the order of a method for differential equations on vector spaces.
 
     >>> order_on_vector_spaces(Tableau.load("cg4"))
     4
@@ -98,7 +97,7 @@ def order_on_vector_spaces(tableau: Tableau) -> int:
 
 
 PYTHON = "sympy"
-"""The name of the format of Python modules. Exported modules use SymPy."""
+"""The name of the format of Python modules. The format is named after SymPy, which exported modules use."""
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:

@@ -8,7 +8,8 @@ The families have these arrays:
 - ``composition``: gamma, or alpha and beta.
 - ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
   ``exponentials`` is one factor. ``count`` contains the number of factors of each product. ``start`` contains
-  the stage from which each product starts, or 0 for y0. The last product may be an embedded update.
+  the stage from which each product starts, or 0 for y0. The products are the
+  stages, the update and, in an embedded method, the embedded update.
 
 The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
 """
@@ -49,8 +50,8 @@ In files of other programs, a shorter decimal, such as 0.5, is taken as an exact
 def to_arrays(data: Data, target: str) -> Arrays:
     """Return the arrays for the keys and values of a tableau file.
 
-    Raises :class:`TableauError` if arrays cannot represent the methods of the family. ``target`` is the name
-    of the output format in messages.
+    Raises :class:`TableauError` if arrays cannot represent the methods of the family. In the message
+    of the error, ``target`` is the name of the output format.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -59,7 +60,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
     kind = FORMATS.get(str(family))
     if kind is None or not kind.in_arrays:
         raise TableauError(
-            f"a tableau of format {family} in {target}",
+            f"a tableau of format {family} cannot be written as {target}",
             where=str(data.get("name")),
             expected="a JSON file, which can represent every tableau",
         )
@@ -84,7 +85,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file, with formulas in place of the names of numbers.
+    """Return the keys and values of a tableau file. Formulas replace the names of numbers.
 
     A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms.
     Rounded coefficients keep the digits of the file.
@@ -104,7 +105,7 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 def _exact(entry: str | int) -> str:
     """Return the text of a coefficient. An exact decimal with at least :data:`ROUNDED` digits becomes a
-    fraction, because a reader would treat the decimal as rounded.
+    fraction, because :func:`coefficient` would read the decimal as rounded.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
@@ -218,8 +219,8 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a tableau file. If the key ``family`` is missing, derive it from the
-    arrays if possible.
+    """Return the keys and values of a tableau file. A missing key ``family`` is added if the arrays determine
+    the family.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -234,8 +235,8 @@ def with_family(data: Data) -> Data:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero. Blank cells beyond
-    the last stage are ignored.
+    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero. Blank cells
+    in columns beyond the last stage are ignored.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]

@@ -92,10 +92,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source in a shorter form, and the texts of the comments before the arrays.
+    """Return the C source without strings and most comments, and the texts of the comments before the arrays.
 
-    Strings and comments are removed from the source. Only the comments inside arrays remain, because they
-    contain the exact values of numbers.
+    The comments inside arrays remain in the source, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

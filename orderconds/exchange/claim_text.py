@@ -1,5 +1,5 @@
-"""Read claims in file formats without tables. The claims are a text such as ``rk=4, symmetric=true``, or a
-JSON object.
+"""Read the claims of a tableau from a text such as ``rk=4, symmetric=true``. The text may also be a JSON
+object: ``{"rk": 4}``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Write the texts of a tableau, such as its name, as comments of source files. A comment is one line.
 
-Backslashes, line breaks and control characters are escaped as in Python. Backslashes also escape ``*/`` and
-``/*``, which delimit comments in C.
+Backslashes, line breaks and control characters are escaped as in Python. In ``*/`` and ``/*``, which
+delimit comments in C, a backslash precedes the slash.
 """
 
 from __future__ import annotations

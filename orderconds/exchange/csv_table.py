@@ -1,11 +1,12 @@
 """CSV tables. Each line consists of a name and a vector, or of a name and one row of a matrix.
 
-The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. The next line begins
-with an empty cell and contains the weights b. A second line with an empty first cell contains embedded
-weights. All other blank cells are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``)
-and a header are ignored.
+The reader also accepts a plain Butcher tableau, in the layout of textbooks. Its line i contains c_i and row i
+of A. The next line begins with an empty cell and contains the weights b. A second line with an empty first
+cell contains embedded weights. All other blank cells are zeros. Cells are separated by commas, semicolons or
+tabs. Comments (``#``) and a header are ignored.
 
-Lines such as ``claims,rk=4``, ``order,4`` and ``embedded_order,3`` state claims.
+Each of the lines ``claims,rk=4`` and ``order,4`` claims that the method has order 4. The line
+``embedded_order,3`` states the order of the embedded weights.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names that may be in the first cell of a line."""
+"""The names that may be in the first cell of a line of a CSV file."""
 WEIGHTS = ("b", "embedded_b")
-"""The names that may be in the first cell of a line of weights in a plain Butcher tableau."""
+"""The names that may begin a line of weights in a plain Butcher tableau (:func:`_is_plain`)."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -88,7 +89,8 @@ def _repeated(name: str, where: str) -> TableauError:
 def _is_plain(table: Table) -> bool:
     """Return True if a table is a plain Butcher tableau.
 
-    In a plain tableau, no row begins with the name of a matrix, and some row begins with a number or a blank.
+    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a number or an
+    empty cell.
     """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
@@ -97,7 +99,7 @@ def _is_plain(table: Table) -> bool:
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
     """Return the arrays of a plain Butcher tableau.
 
-    Raise TableauError if there is no line of weights, or if there are more than two.
+    Raise TableauError if the number of lines of weights is neither 1 nor 2.
     """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]

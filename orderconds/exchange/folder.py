@@ -23,7 +23,7 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 EXCUSES = "DECIMAL"
 """The name of a text file in a folder of tableaux. It lists tableaux whose orders need no proof."""
 
-NO_KEY = "no key of a tableau (family, A, b, ...)"
+NO_KEY = "contains no key of a tableau, such as family, A or b"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
 _LATEX = re.compile(
     r"\\begin\{array\}\s*\{\s*[lcr]\s*\||(?:A|gamma|alpha|exponentials)\s*=\s*\\begin\{[bp]matrix"
@@ -86,13 +86,13 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, because the reader reports the error. If ``strict`` is true, a file that
+    A damaged file must be read, so that the user sees the error. If ``strict`` is true, a file that
     resembles a tableau must be read, too.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
     >>> reason_to_skip(find("rk4")), reason_to_skip(root().parent / "pyproject.toml")
-    ('', 'no key of a tableau (family, A, b, ...)')
+    ('', 'contains no key of a tableau, such as family, A or b')
     """
     reason = _reason(path)
     return "" if reason is None or (strict and not reason.plain) else reason.text
@@ -106,7 +106,7 @@ def _reason(path: str | Path) -> Reason | None:
         content = bytes_of(path)
     except InputError:
         return None
-    return _REASONS[of](content) if of in _REASONS else Reason("a suffix of no known format")
+    return _REASONS[of](content) if of in _REASONS else Reason("the suffix belongs to no known format")
 
 
 def _of_json(content: bytes) -> Reason | None:
@@ -138,7 +138,7 @@ def _of_csv(content: bytes) -> Reason | None:
     weights = any(not row[0] for row in table.rows)
     if named or (weights and not table.plainly_other):
         return None
-    text = "no row is named A, b or another array of a tableau, and no row begins with an empty cell"
+    text = "no row begins with the name of an array (A, b, ...) or with an empty cell"
     return Reason(text, plain=not table.rows or table.plainly_other)
 
 
@@ -151,7 +151,7 @@ def _of_archive(content: bytes) -> Reason | None:
     if (arrays & {*MATRICES, *ROWS}) - {"c"}:
         return None
     unnamed = any(name.casefold() in ("a", "b") or re.fullmatch(r"arr_\d+", name) for name in arrays)
-    return Reason("no array is named A, b or another array of a tableau", plain=not unnamed)
+    return Reason("no array has one of the names A, b, gamma, ...", plain=not unnamed)
 
 
 def _of_python(content: bytes) -> Reason | None:

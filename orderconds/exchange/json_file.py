@@ -1,7 +1,8 @@
 """JSON files, which contain the same keys and values as a tableau file in TOML.
 
-A short decimal such as ``0.5`` is exact, and ``0.3333333333333333`` is a double. If a file states no family,
-its arrays determine the family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
+The decimal ``0.5`` is exact, and ``0.3333333333333333`` is a double: decimals are read by
+:func:`~orderconds.exchange.arrays.coefficient`. If a file states no family, its arrays determine the family.
+The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
     A missing key ``family`` is added. A number with a decimal point or an exponent becomes a text
-    (:func:`~orderconds.exchange.arrays.coefficient`). The suffix ``d`` marks a double.
+    (:func:`~orderconds.exchange.arrays.coefficient`). If the number was probably printed from a double, the
+    text ends with ``d``.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}
@@ -40,7 +42,7 @@ def read(content: bytes, where: str) -> Data:
         raise TableauError(str(problem) or "nested too deep", where=where, expected="JSON") from None
     if not isinstance(data, dict):
         raise TableauError(
-            f"a JSON {type(data).__name__}", where=where, expected="an object with name, family, ..."
+            f"a JSON {type(data).__name__}", where=where, expected="the keys 'name', 'family', ..."
         )
     if isinstance(data.get("claims"), str):
         data["claims"] = claims_from(data["claims"], f"{where}: claims")

@@ -1,4 +1,5 @@
-r"""Tableaux in LaTeX. A Butcher tableau is an ``array`` with horizontal rules. Other methods are matrices.
+r"""Tableaux in LaTeX. A Butcher tableau is an ``array`` with horizontal rules. The coefficients of methods
+of other families are matrices.
 
 The reader accepts arrays ``\begin{array}{c|cc}`` and matrices ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
@@ -34,7 +35,7 @@ _NAMED = re.compile(r"([A-Za-z_\\{}]{1,64})\s{0,9}=\s{0,9}$")
 
 
 def write(data: Data) -> bytes:
-    r"""Return a tableau as LaTeX for a displayed formula. The name and other texts become comments.
+    r"""Return a tableau as LaTeX source for math mode. The name and other texts become comments.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
     % name: m
@@ -97,7 +98,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _texts(text: str) -> Arrays:
-    """Return the entries in the comments before the first formula, such as ``% name: heun``."""
+    """Return the names and texts in the comments before the first formula, such as ``% name: heun``."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):
@@ -134,7 +135,7 @@ def _butcher(body: str, where: str) -> Arrays:
     weights = [row for part in parts[1:] for row in part]
     if not 1 <= len(weights) <= 2 or len({len(row) for row in weights}) != 1:
         raise TableauError(
-            "horizontal lines that do not separate A from b",
+            "the horizontal lines do not separate A from b",
             where=where,
             expected=r"a row `c_i & a_i1 & ...` for each stage, then `\hline`, then weights `& b_1 & ...`, "
             r"and at most one row of embedded weights",

@@ -1,6 +1,6 @@
-"""Conversion of coefficients between three notations: tableau files, Python with SymPy's names, and LaTeX.
+"""Convert coefficients between tableau files and SymPy source, and read coefficients in LaTeX.
 
-:mod:`orderconds.tableau.coefficient_latex` writes LaTeX. This module only reads LaTeX.
+The module :mod:`orderconds.tableau.coefficient_latex` writes LaTeX.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
 def to_python(text: str) -> str:
-    """Return a coefficient of a tableau file as Python source with SymPy's names, without rounding.
+    """Return a coefficient of a tableau file as Python source that uses SymPy. Exact numbers are not rounded.
 
     >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
@@ -28,10 +28,11 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source, with parentheses if ``tight`` requires them.
+    """Return x as Python source, with the parentheses that its place in a larger expression requires.
 
-    ``tight`` is 1 for the first factor of a product or after a minus sign, 2 for a later factor or a divisor,
-    and 0 otherwise.
+    ``tight`` describes the place: it is 1 for the first factor of a product and after a minus sign, 2 for
+    other factors and divisors, and 0 elsewhere. A sum is in parentheses if ``tight`` is positive, a product
+    if ``tight`` is 2.
     """
     if isinstance(x, Constant):
         if x.is_double:
@@ -101,6 +102,6 @@ def from_latex(text: str, where: str = "") -> str:
         text = new
     if "\\" in text or "{" in text:
         raise TableauError(
-            f"{text[:60]!r}", where=where, expected=r"a number in LaTeX, with \frac, \sqrt, \cdot or \ldots"
+            f"{text[:60]!r}", where=where, expected=r"a number in LaTeX (\frac, \sqrt, \cdot, \ldots)"
         )
     return text

@@ -1,8 +1,8 @@
 """NumPy archives (``.npz``). The array ``A`` contains doubles, and the array ``A_exact`` contains the exact
 values as text.
 
-An array without exact texts is read as doubles. Arrays of Python objects are refused. An archive claims an
-order with the entry ``order=4`` or ``claims="rk=4"``.
+If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
+The entry ``order=4`` or ``claims="rk=4"`` of an archive claims that the method has order 4.
 """
 
 from __future__ import annotations
@@ -79,7 +79,8 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return the nearest doubles of a coefficient or of nested lists of coefficients.
+    """Return the double nearest to a coefficient. For nested lists, replace each coefficient by the nearest
+    double.
 
     ``roots`` contains the definitions of named roots, as JSON.
 
@@ -102,7 +103,7 @@ def nearest(text: str, roots: str = "{}") -> float:
     """
     fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
-        if fraction:  # Division of integers is fast, and Python rounds the quotient correctly.
+        if fraction:  # Python rounds the quotient of two integers correctly.
             return int(fraction[1]) / int(fraction[2] or 1)
         data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)
@@ -136,7 +137,7 @@ def read(content: bytes, where: str) -> Data:
         if not isinstance(value, np.ndarray):
             raise TableauError(f"the member {name} is not an array", where=where, expected="arrays")
         if name.endswith(EXACT) and value.dtype.kind != "U":
-            raise TableauError(f"the array {name} of type {value.dtype}", where=where, expected="texts")
+            raise TableauError(f"the array {name} has the type {value.dtype}", where=where, expected="texts")
     for name, value in members.items():
         if name.endswith(EXACT):
             continue
@@ -167,7 +168,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
         if "allow_pickle" not in str(problem):
             raise
         raise TableauError(
-            f"the array {name} contains Python objects, which are not unpickled",
+            f"the array {name} contains pickled Python objects",
             where=where,
             expected=EXPECTED,
             hint="fill ragged rows with zeros, and save with numpy.savez(FILE, A=A, b=b)",
@@ -177,18 +178,18 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
     """Raise an error if the array is neither a vector nor a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
-        raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
+        raise TableauError(f"the array {name} has {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":
-        raise TableauError(f"the array {name} of complex numbers", where=where, expected=EXPECTED)
+        raise TableauError(f"the array {name} contains complex numbers", where=where, expected=EXPECTED)
     if kind == "f" and size != 8:
         raise TableauError(
-            f"the array {name} of floats with {8 * size} bits",
+            f"the array {name} contains floats with {8 * size} bits",
             where=where,
             expected=EXPECTED,
             hint="store the original coefficients as float64; converting float32 arrays adds no digits",
         )
     if kind not in "fiu":
-        raise TableauError(f"the array {name} of type {kind!r}", where=where, expected=EXPECTED)
+        raise TableauError(f"the array {name} has the NumPy kind {kind!r}", where=where, expected=EXPECTED)
 
 
 def _require_small(archive: zipfile.ZipFile, where: str) -> None:

@@ -3,9 +3,9 @@
 A module is parsed, not executed. The reader evaluates the assignments at the top level one after another. An
 assignment may contain lists, tuples, numbers, arithmetic, square roots and names that were assigned before.
 It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
-Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if the reader cannot
-evaluate a statement that may change an array. At the user's request, :mod:`orderconds.exchange.python_module`
-executes the module instead.
+Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. If the reader cannot evaluate a statement
+that may change an array of the tableau, the file is refused. At the user's request,
+:mod:`orderconds.exchange.python_module` executes the module instead.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
 """The names of arrays. A module contains a tableau if it assigns all names of one group."""
 
-HINT = "write the numbers as literals, or run the file with orderconds check --execute"
+HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 HARMLESS = ("print",)
 MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
 """Modules with functions that the reader can evaluate."""
@@ -63,7 +63,7 @@ def reason_to_skip(content: bytes) -> str:
     """Return why a module contains no tableau. Return an empty text if it assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
-    ('no assignment to A and b', '')
+    ('assigns no arrays of a tableau, such as A and b', '')
     """
     try:
         tree = _parsed(_decoded(content, ""), "")
@@ -76,7 +76,7 @@ def reason_to_skip(content: bytes) -> str:
         if isinstance(value, ast.List | ast.Tuple | ast.Call | ast.BinOp | ast.Name | ast.Subscript)
     }
     complete = any(assigned.issuperset(names) for names in COMPLETE)
-    return "" if complete else "no assignment to A and b"
+    return "" if complete else "assigns no arrays of a tableau, such as A and b"
 
 
 def is_plainly_other(content: bytes) -> bool:
@@ -118,7 +118,7 @@ def _parsed(text: str, where: str) -> ast.Module:
 
 
 def _header(text: str) -> Arrays:
-    """Return the entries in the comments before the first statement, such as ``# name: heun``."""
+    """Return the names and texts in the comments before the first statement, such as ``# name: heun``."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("#"):
@@ -129,7 +129,7 @@ def _header(text: str) -> Arrays:
 
 
 def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
-    """Yield the names that a statement assigns, each with its expression."""
+    """Yield each variable to which a statement assigns a value, and the expression for the value."""
     if isinstance(statement, ast.Assign):
         for target in statement.targets:
             if isinstance(target, ast.Name):
@@ -239,7 +239,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
             entries[name] = _row(cells) if name in ROWS else cells
         elif isinstance(value, Computed) and name != "c":  # c may be unknown, because A determines c.
             raise TableauError(
-                f"not a literal value: {value.reason}",
+                f"the value is not known without executing the file: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",
                 expected="rows of numbers",
                 hint=HINT,
@@ -250,7 +250,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
             entries.setdefault(name, value)
         elif name == "claims" and value is not None:
             raise TableauError(
-                "claims that are not literal",
+                "the claims are not known without executing the file",
                 where=f"{where}: claims",
                 expected='claims = "rk=4" or {"rk": 4}',
             )

@@ -27,11 +27,11 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays whose entries all have the same type. If this type is an integer type, the array
-cannot contain 1/2."""
+"""Constructors of arrays whose entries all have the same type. An entry of an array of
+integers cannot be changed to 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""An array type is refused if its name contains one of these texts. The refused types are integers, Booleans,
-complex numbers and short floats.
+"""An array is refused if its ``dtype`` contains one of these texts. The refused types are integers, Booleans,
+complex numbers, and floats with 16 or 32 bits.
 """
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -42,8 +42,8 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values. ``integral`` is true for an array of an integer type, which
-    cannot store other numbers."""
+    """A list, a tuple or an array of values. If ``integral`` is true, the array has an integer type and can
+    store only integers."""
 
     items: list[Value]
     integral: bool = False
@@ -86,8 +86,8 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """Maps imported names to functions. After ``from sympy import Rational as R``, it maps R to
-    ``Rational``.
+    """Maps an imported name to the name of a function. After ``from sympy import Rational as R``, it maps
+    ``R`` to ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
@@ -121,7 +121,8 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Mark ``names`` as unknown. Other names of the same arrays become unknown, too."""
+        """Mark the values of ``names`` as unknown. If one of the values is an array, all names of this array
+        become unknown."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -184,7 +185,7 @@ class Values:
         if isinstance(node.op, ast.Pow):
             exponent = rational(self._number(node.right))
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
-                raise _NotLiteral(node, "a power whose exponent is not a small fraction")
+                raise _NotLiteral(node, "a power with an exponent other than p/q with |p| <= 64, q <= 24")
             return Power(self._number(node.left), exponent)
         # A loop collects the operands, because recursion into a long sum could exceed Python's limit.
         signs: list[str] = []
@@ -254,7 +255,8 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array and of its rows. Return any other value unchanged."""
+    """Return a copy of an array and of its rows, with the given attribute ``integral``. Any other value is
+    unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
@@ -262,18 +264,18 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     sizes = shape.items if isinstance(shape, Array) else [shape]
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
-        raise _NotLiteral(node, "an array of zeros whose shape is not one or two integers from 1 to 200")
+        raise _NotLiteral(node, "zeros(x), where x is neither n nor (n, m) with 1 <= n, m <= 200")
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))
     return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])
 
 
 def _table(node: ast.Dict) -> str:
-    """Return a literal dictionary as JSON."""
+    """Return a dictionary of constants as JSON."""
     try:
         return json.dumps(ast.literal_eval(node))
     except (ValueError, TypeError, RecursionError, MemoryError):
-        raise _NotLiteral(node, "a dictionary that is not literal") from None
+        raise _NotLiteral(node, "a dictionary that does not consist of constants") from None
 
 
 def rational(x: Expression) -> Fraction | None:
@@ -304,10 +306,10 @@ def texts(value: Value, where: str) -> Cells:
         return [texts(x, where) for x in value.items]
     if isinstance(value, Computed):
         raise TableauError(
-            f"not a literal value: {value.reason}",
+            f"the value is not known without executing the file: {value.reason}",
             where=f"{where}: line {value.line}",
             expected="a number",
-            hint="write the numbers as literals, or run the file with orderconds check --execute",
+            hint="write the numbers themselves, or execute the file with 'orderconds check --execute'",
         )
     if isinstance(value, str):
         return value

@@ -17,14 +17,15 @@ _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a table, and its header if there is one. Cells have no blanks at their ends."""
+    """The rows of a table, and its header if there is one. Blanks at the begin and at the end of a cell
+    are removed."""
 
     rows: tuple[tuple[str, ...], ...]
     header: tuple[str, ...] = ()
 
     @property
     def plainly_other(self) -> bool:
-        """True if the table has a header whose first name is not c. Such a table is not a tableau."""
+        """True if the first cell of the header is not ``c``. Such a table is certainly not a tableau."""
         return bool(self.header) and self.header[0] != "c"
 
 
@@ -32,9 +33,9 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
     The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row may
-    be a header. If it begins with ``c``, it is a header if its other cells are names of columns: ``c,a1,a2``.
-    Any other first row is a header if all its cells are words and its first cell is not one of ``names``.
-    Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
+    be a header. A first row that begins with ``c`` is a header if its other cells are names of columns:
+    ``c,a1,a2``. Any other first row is a header if all its cells are words and its first cell is
+    not one of ``names``. Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))

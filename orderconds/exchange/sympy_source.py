@@ -55,10 +55,10 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield each named number after all named numbers that occur in its definition.
+    """Yield the name and the definition of each named number, after all named numbers in its definition.
 
-    A definition is a text, or a root of a polynomial. A root is a pair: the coefficients of the polynomial in
-    descending order, and the index of the root among the real roots.
+    A definition is a text or a pair. A pair represents a root of a polynomial: it contains the coefficients
+    in descending order, and the index of the root among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:

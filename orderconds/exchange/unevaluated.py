@@ -1,8 +1,8 @@
-"""Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
+"""Unevaluated coefficients: the expressions of a tableau file, without the names of numbers.
 
-A tableau file may name a formula and use the name in coefficients. Other formats cannot contain such names.
-The expressions are not evaluated, because evaluation would lose the digits of rounded decimals. Only
-operations with 0 and 1 are simplified.
+A tableau file may name a formula and use the name in coefficients. Formats without such names contain the
+formula instead. The expressions are not evaluated, because evaluation would lose the digits of rounded
+decimals. Only operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long after formulas have replaced names."""
+    """The error for a coefficient that is too long after the names of numbers were replaced by formulas."""
 
 
 class Unevaluated:
@@ -76,7 +76,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """Unevaluated numbers as a ring. Only the constant 0 counts as zero.
+    """The ring of unevaluated numbers. Only the constant 0 counts as zero.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -91,7 +91,8 @@ class UnevaluatedNumbers:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """The triple (name, minimal polynomial, isolating decimal) of each root that has a name."""
+        """The triple (name, minimal polynomial, decimal) of each root that has a name. The decimal
+        distinguishes the root from other roots of the polynomial."""
         return tuple((name, *root) for name, root in self._roots.items())
 
     def rational(self, p: int, q: int = 1) -> Unevaluated:
@@ -99,7 +100,8 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant: the exact ``value`` if ``unit`` is zero, else a ball of radius ``unit``."""
+        """Return a constant: the exact ``value`` if ``unit`` is zero, else a ball with centre ``value`` and
+        radius ``unit``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -114,7 +116,7 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, because this ring accepts numbers of all sizes."""
+        """Return 0. The size of numbers is limited only in other rings."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -136,7 +138,7 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient that is too long if its named numbers are replaced by their formulas",
+                "a coefficient is too long after the names of numbers were replaced by formulas",
                 expected="format json, which keeps the names of numbers",
             )
         return text

@@ -74,10 +74,10 @@ def test_a_text_that_states_no_claim_is_refused(text: str) -> None:
 
 
 BAD = {
-    "ragged.npz": (None, "contains Python objects, which are not unpickled"),
-    "complex.npz": (archive(A=np.zeros((1, 1), complex), b=[1.0]), "A of complex numbers"),
+    "ragged.npz": (None, "the array A contains pickled Python objects"),
+    "complex.npz": (archive(A=np.zeros((1, 1), complex), b=[1.0]), "A contains complex numbers"),
     "single.npz": (archive(A=np.zeros((1, 1), np.float32), b=[1.0]), "floats with 32 bits"),
-    "text.npz": (archive(A=np.array([["x"]]), b=[1.0]), "the array A of type 'U'"),
+    "text.npz": (archive(A=np.array([["x"]]), b=[1.0]), "the array A has the NumPy kind 'U'"),
     "nan.npz": (archive(A=[[np.nan]], b=[1.0]), "nan.npz: A: the number nan; expected a finite number"),
     "cube.npz": (archive(A=np.zeros((1, 1, 1)), b=[1.0]), "3 axes"),
     "ragged.json": (b'{"A": [[0.5], [1, 2, 3]], "b": [1, 0]}', "A[2]: 3 entries; expected at most 2"),
@@ -121,7 +121,7 @@ def test_a_folder_without_tableaux_names_the_formats(tmp_path: Path) -> None:
     assert (
         "no tableau below this directory; expected files *.toml, *.json, *.csv, *.npz, *.py" in result.stderr
     )
-    assert "package.json: no key of a tableau" in result.stderr
+    assert "package.json: contains no key of a tableau" in result.stderr
     assert "notes.md" in result.stderr
 
 

@@ -30,7 +30,7 @@ def test_a_name_given_twice_is_refused() -> None:
 
 @pytest.mark.parametrize("content", [b"[]", b"null", b'"text"', b"1"])
 def test_only_an_object_is_a_tableau(content: bytes) -> None:
-    with pytest.raises(TableauError, match="an object with name, family"):
+    with pytest.raises(TableauError, match="the keys 'name', 'family'"):
         read(content, "m.json")
 
 

@@ -68,7 +68,7 @@ def test_arrays_are_read_from_literals_names_and_constructors(source: str) -> No
     ],
 )
 def test_a_module_whose_arrays_only_execution_yields_is_refused(source: str) -> None:
-    with pytest.raises(TableauError, match=r"not a literal value: .*--execute"):
+    with pytest.raises(TableauError, match=r"not known without executing the file: .*--execute"):
         parsed(source.encode(), "m.py")
 
 
