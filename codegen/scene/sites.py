@@ -1,8 +1,8 @@
 """Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
 
 The equation of a site contains the coordinates of the site and the coordinates of some neighbours. The offset
-of a neighbour is the difference of the indices. In a chain, the offset of the right neighbour is ``(1,)``. In
-a plane lattice, ``(0, -1)`` is the offset of a neighbour.
+of a neighbour is the index of the neighbour minus the index of the site. In a chain, the offset of the right
+neighbour is ``(1,)``. In a plane lattice, the previous site along the second axis has the offset ``(0, -1)``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 MOST_DIMENSIONS, MOST_DISTANCE = 4, 8
-"""The largest dimension of a lattice, and the largest difference of an index between neighbours."""
+"""The largest dimension of a lattice, and the largest absolute value of an entry of an offset."""
 
 HALF = Number.rational(1, 2)
 
@@ -94,10 +94,11 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 
 @dataclass(frozen=True)
 class SitePart:
-    """A part of the field with an exact flow.
+    """A part of the field of a lattice whose exact flow is known.
 
-    If the part couples two neighbours along ``axis``, ``roots`` are the generators of both sites, and
-    ``symbols`` are the coordinates of the second site. Otherwise ``roots`` are the generators of one site.
+    If the part couples two neighbours along ``axis``, ``roots`` contains the generators of the first site and
+    then the generators of the second site. ``symbols`` contains the names of the coordinates of the second
+    site. If the part acts on single sites, ``roots`` contains the generators of one site.
     """
 
     name: str
@@ -111,13 +112,14 @@ class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of the neighbours' coordinates.
 
-    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary, as
-      formulas in the coordinates of the site, the time and parameters. It is empty for a periodic lattice.
+    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary. The state
+      is given by formulas in the coordinates of the site, the time and parameters. For a periodic lattice,
+      ``outside`` is empty.
     - ``parts``: the parts of the field. Splitting methods compose the exact flows of the parts
       (:mod:`codegen.scene.site_parts`).
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
-    - ``energy``: the sum of all energies that depend on the state of a site.
+    - ``energy``: the energy of a site plus the energies of all its bonds.
     - ``bonds``: a pair for each bond of a site. The pair contains the index of the neighbour in ``offsets``,
       and the energy of the bond.
     """
@@ -140,9 +142,9 @@ class Sites:
         """Return the share of a site in the total energy. The total energy is the sum of the shares of all
         sites.
 
-        A site has one half of the energy of each bond, or the whole energy if the other site does not exist
-        because the boundary is open. ``exists`` is true or 1 for each offset whose neighbour exists, and
-        false or 0 otherwise.
+        The share contains the energy of the site itself and one half of the energy of each bond. At an open
+        boundary, a bond may have no second site. The share then contains the whole energy of this bond.
+        ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0 otherwise.
         """
         assert self.energy is not None
         share, space = self.energy, self.energy.space
@@ -154,7 +156,7 @@ class Sites:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The symbols of all coordinates of neighbours."""
+        """The names of the coordinates of all neighbours."""
         return tuple(name for column in self.symbols for name in column)
 
     def text(self) -> str:
@@ -162,4 +164,4 @@ class Sites:
         kind = "chain" if self.dimension == 1 else f"lattice of dimension {self.dimension}"
         ends = "periodic" if self.periodic else "open, with given states outside"
         listed = ", ".join(str(o[0]) if len(o) == 1 else str(o).replace(" ", "") for o in self.offsets)
-        return f"{kind}, {ends}; the field of a site reads the neighbours {listed}"
+        return f"{kind}, {ends}; the field of a site reads the neighbours at the offsets {listed}"

@@ -28,18 +28,18 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""The largest number of rows for which the field is also written in coordinates of SO(n).
+"""The largest number n of rows for which the generator is also written as formulas for its coordinates in the
+Lie algebra of SO(n).
 
-Commands such as ``stability``, ``localerror`` and ``bench`` need the field in these coordinates. Methods that
-compute with coordinates of SO(n) need it, too. The length of the formulas grows as n^3 with the number n of
-rows.
+Commands such as ``stability``, ``localerror`` and ``bench`` need these formulas. Methods that compute with
+coordinates of SO(n) need these formulas, too. The length of the formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10
 """The largest permitted entry of y0^T y0 - 1.
 
-For the velocity V at a matrix X with n rows, the largest permitted entry of X^T V + V^T X is TOLERANCE n (1 +
-max |V_ij|).
+For the velocity V at a matrix X with n rows, the largest permitted entry of X^T V + V^T X is the product of
+TOLERANCE, n and 1 + max |V_ij|.
 """
 
 
@@ -57,11 +57,11 @@ def StiefelScene(
     - ``x``: the unknown (:func:`codegen.scene.matrix_formula.unknown`).
     - ``velocity``: the formula V. It must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns.
     - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
-    - ``span``: the rational time interval.
+    - ``span``: the ends of the time interval, two rational numbers.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
-    cf and cg cost O(n k^2) operations besides the evaluations of V. The length of the code depends on n only
-    if a matrix in V is given by a list of its entries.
+    cf and cg cost O(n k^2) operations besides the evaluations of V. If V contains a matrix that is given by a
+    list of its entries, the length of the code grows with n. Otherwise it does not depend on n.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
@@ -160,7 +160,7 @@ def _largest(gram: Sequence[float], unit: bool) -> float:
 
 
 def _elsewhere(start: Sequence[float], k: int) -> list[float]:
-    """Return a matrix with orthonormal columns that differs from ``start``.
+    """Return a second matrix with orthonormal columns, at which the velocity is tested.
 
     Fixed numbers are added to the entries of ``start``, and the columns are then orthonormalised.
     """

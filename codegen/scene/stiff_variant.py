@@ -1,7 +1,7 @@
 """Stiff variants of a scene: the same problem with a very short time scale, or near a singularity.
 
-A scene file may define the function ``stiff_variants()``, which returns a list of variants. ``orderconds
-stability`` measures the order of methods on each variant.
+The file of a gallery scene may define the function ``stiff_variants()``, which returns a list of variants.
+``orderconds stability`` measures the order of methods on each variant.
 """
 
 from __future__ import annotations
@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle, in radians, by which the fastest undamped rotation of a variant may turn during the time
-span.
+"""The largest angle, in radians, of the fastest undamped rotation in a stiff variant during its time span.
 
 For angles above a few hundred radians the phase error hides the order of every explicit method.
 """
@@ -23,9 +22,9 @@ class StiffVariant:
     """A stiff variant of a scene.
 
     - ``name``: the name of the variant.
-    - ``about``: a phrase that describes the stiff feature.
+    - ``about``: a phrase that describes why the problem is stiff, such as "frequency 1e+03".
     - ``scene``: the problem.
-    - ``rate``: the fastest rate of the problem in 1/time.
+    - ``rate``: the fastest rate of the problem, the reciprocal of its shortest time scale.
     """
 
     name: str

@@ -76,10 +76,11 @@ def table(
 
     - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
       ``linear``.
-    - ``outside``: ``hold`` continues with the value at the nearest point, and ``extrapolate`` with the
-      polynomial of the nearest interval.
+    - ``outside``: the values beyond the table. ``hold`` continues with the value at the nearest point, and
+      ``extrapolate`` with the polynomial of the nearest interval.
 
-    :class:`SceneError` is raised if the numbers do not define a function.
+    :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
+    points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
 
     The function is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
     first derivative of a linear table jumps.
@@ -135,8 +136,9 @@ def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fraction]:
     """Return the second derivatives m_k of the spline at the points, by elimination in a tridiagonal system.
 
-    The interval k of n intervals, k = 0, ..., n - 1, has the width w_k and the slope s_k. The first and the
-    last equation are m_0 = 0 and m_n = 0. The equation for 0 < k < n is:
+    The spline has n intervals. Interval k has the width w_k, and s_k is the slope of the straight line
+    between its two ends, k = 0, ..., n - 1. The first and the last equation are m_0 = 0 and m_n = 0. The
+    equation for 0 < k < n is:
 
     w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}).
     """
@@ -159,14 +161,15 @@ def _joined(
     """Return the piecewise polynomial with the given rows of coefficients, extended beyond the table."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
-    # A piecewise polynomial has at least one knot, but a table with two points has one interval and no inner
-    # point. Its first point becomes the knot, and both sides of the knot have the same polynomial.
+    # A piecewise polynomial needs a knot. Usually the inner points of the table are the knots. A table with
+    # two points has no inner point, so its first point becomes the knot, with the same polynomial on both
+    # sides.
     knots, starts = (xs[1:-1], xs[:-1]) if len(xs) > 2 else (xs[:1], (xs[0], xs[0]))
     return PiecewisePolynomial(tuple(knots), tuple(starts), tuple(rows if len(xs) > 2 else rows * 2))
 
 
 def _numbers(name: str, given: Iterable[object]) -> list[Fraction]:
-    """Return numbers as exact fractions."""
+    """Return the numbers of the list ``name`` as exact fractions."""
     try:
         entries = list(given)
     except TypeError:

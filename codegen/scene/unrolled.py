@@ -17,17 +17,17 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.sites import Offset, Sites
 
 MOST_SITES = 64
-"""The largest number of sites of an unrolled lattice. An unrolled lattice has separate formulas for each
-site."""
+"""The largest number of sites of an unrolled lattice. The number is limited because an unrolled lattice has
+separate formulas for each site."""
 
 
 def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as a field on the product of the groups of its sites.
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. For a Hamiltonian scene, the result is a field on the product of the groups T*G of its
-    sites, and the Hamiltonian of the result is the total energy of the lattice. In other scenes the total
-    energy is an invariant.
+    state of the scene. For a Hamiltonian scene, each site has the group T*G, and the Hamiltonian of the
+    result is the total energy of the lattice. If another scene defines an energy, the total energy of the
+    lattice is an invariant of the result.
 
     :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
     the lattice, and for too few or too many sites.
@@ -87,8 +87,8 @@ def small(scene: Problem) -> Problem:
     """Return an unrolled lattice with few sites.
 
     The size of a periodic lattice is chosen so that no site is its own neighbour. The size of an open lattice
-    is chosen so that at least one site has all neighbours. If this would need more than :data:`MOST_SITES`
-    sites, a smaller open lattice is returned.
+    is chosen so that at least one site has all neighbours. If this open lattice would have more than
+    :data:`MOST_SITES` sites, a smaller open lattice is returned.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

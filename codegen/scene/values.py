@@ -5,4 +5,5 @@ from __future__ import annotations
 from codegen.ir.domain import Scalar
 
 Bindings = dict[str, Scalar]
-"""The value of each symbol. All values are scalars of the same number domain."""
+"""Maps the name of each symbol in a formula to its value. All values are scalars of the same number
+domain."""

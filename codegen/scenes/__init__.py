@@ -98,9 +98,9 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     """Register a scene under a name for all commands of this process, and return the scene with this name.
 
     ``about`` describes the scene in reports. If the name is already registered, the new scene replaces the
-    old scene. :class:`SceneError` is raised for an object that is not a scene, for a name of the gallery, and
-    for a name that is not an identifier. A scene in a Python file needs no registration: commands accept the
-    path of the file as a name.
+    old scene. :class:`SceneError` is raised for an object that is not a scene, for the name of a built-in
+    scene, and for a name that is not an identifier. A scene in a Python file needs no registration: commands
+    accept the path of the file as a name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -117,12 +117,13 @@ def unregister(name: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all scenes in the gallery and of all registered scenes."""
+    """Return the names of all registered scenes, and of all built-in scenes with a fixed number of
+    coordinates."""
     return (*GALLERY, *_REGISTERED)
 
 
 def every_name() -> tuple[str, ...]:
-    """Return the names of :func:`names`, of all chains and lattices, and of all semilinear equations.
+    """Return the names of all built-in and registered scenes, also of those in LATTICES and SEMILINEAR.
 
     >>> "dipole" in every_name() and "spin_lattice" in every_name()
     True
@@ -173,8 +174,8 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 def with_one_system(scene: Problem) -> Problem:
     """Return ``scene`` if it describes a single system of ordinary differential equations.
 
-    :class:`SceneError` is raised for scenes that do not fix the number of sites or points: chains, lattices,
-    and semilinear equations whose linear operator is given by its Fourier symbol.
+    Otherwise :class:`SceneError` is raised. The scene of a chain or lattice does not fix the number of sites.
+    The scene of a semilinear equation with a Fourier symbol does not fix the number of grid points.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -245,8 +246,8 @@ def _load(name: str) -> Problem:
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
     """Return the stiff variants of a scene of the gallery.
 
-    A stiff variant has some fast rates. The file of the scene defines the variants for stress tests. A user's
-    scene has no stiff variants, even if it has the name of a scene of the gallery.
+    A stiff variant has a very short time scale or is near a singularity. For a user's scene the result is
+    empty, even if this scene has the name of a scene of the gallery.
     """
     if scene.name not in GALLERY:
         return ()
@@ -284,14 +285,16 @@ def _run(name: str, path: Path) -> Problem:
 def _named(scene: Problem, name: str, about: str = "") -> Problem:
     """Return the scene with another name.
 
-    A scene without a title gets the first line of ``about`` as its title, or ``name`` if ``about`` is empty.
+    If the scene has no title, the first line of ``about`` becomes its title. If ``about`` is empty, too,
+    ``name`` becomes its title.
     """
     first = next((line.strip() for line in about.splitlines() if line.strip()), "").removesuffix(".")
     return replace(scene, name=name, title=(first or name) if scene.title == scene.name else scene.title)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:
-    """Return the file and the line of the user's code in which an error was raised."""
+    """Return FILE:LINE for the line of the user's file that raised an error, or FILE if the line is
+    unknown."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     if isinstance(error, SyntaxError) and error.lineno is not None:
         lines.append(error.lineno)

@@ -4,12 +4,13 @@ The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. Th
 u -> exp(t L) u + c. The element f(u) of its algebra has the coordinates (1, N(u)). Lie-Euler is the
 exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. The other Lie group
 methods are exponential integrators, too. L is eps times the second difference quotient on points with the
-spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1)
-and (L2, c2) has the translation L1 c2 - L2 c1; the formula in section 2.2.2 has an additional term c1.
+spacing 1/7, with u = 0 at both ends. An element (A, c) of the algebra consists of a matrix A and a
+translation c. The bracket of (A1, c1) and (A2, c2) has the translation A1 c2 - A2 c1. The thesis prints this
+translation with an additional term c1.
 
 Solutions grow without bound if diffusion is integrated backwards in time. A method with negative
 coefficients, such as ``cg3``, integrates backwards in a part of each step. If the steps of such a method are
-long, all digits are lost.
+long, no digit of its result is correct.
 """
 
 from sympy import Matrix, Rational, symbols

@@ -4,8 +4,9 @@ Each body has joints at x + R b and x - R b, where x is its centre of mass, R it
 constant vector. A stiff spring joins the point x - R b of a body to the point x' + R' b of the next body. The
 spring replaces the constraint of a ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see
 ``coupled_rigid_bodies``). The first body hangs at the origin, as if it were joined to a fixed body with x = b
-and R = 1. The chain has a free end: the spring behind the last body has length zero and exerts no force. The
-three moments of inertia of a body differ.
+and R = 1. The last body has a free end: beyond the chain, a fictitious next body follows the last body, so
+that the spring between them has length zero and exerts no force. The three moments of inertia of a body
+differ.
 """
 
 from sympy import Matrix, Rational, eye

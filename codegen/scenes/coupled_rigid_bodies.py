@@ -1,11 +1,14 @@
 """Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)), with their centre of mass at rest.
 
-The joint is at the point d_k of body k, on a principal axis, and eps is the reduced mass of the two bodies.
-Without the joint, the kinetic energy of their rotations would be sum_k P_k.J_k^-1 P_k/2. Here J_k is the
-inertia of body k, P_k its angular momentum in the body frame, and g_k its attitude. The joint reduces this
-energy by b.S^-1 b/2, where b is the velocity with which the bodies would separate at the joint. The matrix S
-= 1/eps + sum_k g_k C_k g_k^T with C_k = hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at
-the joint. Energy and total angular momentum are conserved.
+The joint is at the point d_k of body k, on a principal axis of the body. Body k has the inertia J_k, the
+attitude g_k, and the angular momentum P_k in the body frame. The two bodies have the reduced mass eps.
+Without a joint, the kinetic energy of the rotations is sum_k P_k.J_k^-1 P_k/2, and the points d_1 and d_2
+separate with a velocity b. The joint reduces the energy by b.S^-1 b/2, where S is the inverse of the
+effective mass at the joint:
+
+    S = 1/eps + sum_k g_k C_k g_k^T,    C_k = hat(d_k)^T J_k^-1 hat(d_k).
+
+Here hat(d) is the matrix of v -> d x v. Energy and total angular momentum are conserved.
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378.
@@ -28,12 +31,13 @@ d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
-    """Return hat(d)^T J^-1 hat(d), where hat(d) is the matrix of v -> d x v."""
+    """Return the matrix hat(d)^T J^-1 hat(d) of a body with the inertia J and the joint at the point d."""
     hat = Matrix([[0, -d[2], d[1]], [d[2], 0, -d[0]], [-d[1], d[0], 0]])
     return hat.T * J.inv() * hat
 
 
-# All vectors are in the frame of the first body; Q turns the second body into this frame.
+# All vectors are in the frame of the first body. Q maps vectors from the frame of the second body to this
+# frame.
 P1, P2, Q = g1.T * mu1, g2.T * mu2, g1.T * g2
 w1, w2 = J1.inv() * P1, J2.inv() * P2
 b = Q * w2.cross(d2) - w1.cross(d1)

@@ -1,15 +1,15 @@
 """Dipole on a stick, on T*SO(3): a pendulum with a charged dipole at its end, near a fixed charge.
 
-The scene is from section 3.6 of H. Marthinsen's thesis. In the Hamiltonian that the thesis prints, the
-gravity term has a plus sign. In this scene, it has a minus sign. With the minus sign and h = 0.01, the energy
-errors over (0, 1000) are 1.0e-3 (vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2). Fig. 3.3 of the thesis shows the
-same errors, about 1e-3 and 1e-7. With the plus sign, the errors are 1.0e-4 and 1.3e-9.
+The scene is from section 3.6 of H. Marthinsen's thesis. The thesis prints the gravity term of the Hamiltonian
+with a plus sign, but Fig. 3.3 of the thesis agrees with the minus sign, which this scene uses. In Fig. 3.3,
+with h = 0.01 on the interval (0, 1000), the energy error is about 1e-3 for vcg:midpoint and 1e-7 for
+vrkmk(2):gauss2. The minus sign gives the errors 1.0e-3 and 1.4e-7. The plus sign gives 1.0e-4 and 1.3e-9.
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. On R^n, a VRKMK method is a partitioned
 Runge-Kutta method. Let p be the order of this partitioned method. By Theorem 3.5.3, VRKMK(r) has order p if
-r >= p - 2. More precisely, its order is min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise. For
-even r >= 2 the power r + 1 has the coefficient zero, because the odd Bernoulli numbers after the first
-vanish. Thus r = 2 suffices for order 5, and r = 4 for order 7.
+r >= p - 2. For even r >= 2 the condition r >= p - 3 suffices, because the next power r + 1 of ad has the
+coefficient zero: the odd Bernoulli numbers after the first vanish. Thus r = 2 suffices for order 5, and r = 4
+for order 7. If r is smaller, the order of VRKMK(r) is r + 3 for even r >= 2, and r + 2 for other r.
 """
 
 import math
@@ -82,7 +82,7 @@ figures = [
     Deviation(
         name="energy",
         title="Energy error of the dipole over 100 000 steps",
-        caption="Steps of size 0.01. Each point is the maximum of 1000 steps.",
+        caption="Steps of size 0.01. Each point is the largest error in 1000 steps.",
         source="Fig. 3.3 of the thesis",
         quantity="energy",
         axis="largest energy error",
@@ -119,5 +119,6 @@ def _passing(gap: Fraction) -> StiffVariant:
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the fixed charge at a distance of {float(gap):g}"
-    # The acceleration is about 1/gap^2 over a distance of about gap, so the time scale is gap^(3/2).
+    # At the distance ``gap``, the acceleration is about 1/gap^2. A motion with this acceleration covers a
+    # distance of about ``gap`` in the time gap^(3/2), which is therefore the time scale.
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

@@ -1,9 +1,9 @@
 """Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
 
 The equation is m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b). The equation
-depends on time and is dissipative, and the generator w has a component along m. On simpler scenes some terms
-of a method vanish. On this scene no term vanishes, so an error in any term is visible. ``stiff_driven_spin``
-has the same equation with fast rates.
+depends on time and is dissipative, and the generator w has a component along m. For these reasons no term of
+a method vanishes in this scene, so an error in any term is visible. ``stiff_driven_spin`` has the same
+equation with fast rates.
 
 L. Landau and E. Lifshitz, On the theory of the dispersion of magnetic permeability in ferromagnetic bodies,
 Phys. Z. Sowjetunion 8 (1935), 153-169.

@@ -23,7 +23,10 @@ field = Matrix([y, -x - x**3])
 
 
 def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
-    """Return the scene of Duffing's equation z' = f(z).z for a group that acts on the plane."""
+    """Return the scene of Duffing's equation z' = f(z).z for a group that acts on the plane.
+
+    ``frame`` describes the group in the title of the scene.
+    """
     return FieldScene(
         title=f"Duffing's equation, {frame}",
         group=group,

@@ -3,8 +3,8 @@
 The scene is a benchmark of multibody dynamics (Brüls and Cardona 2010). The equations are R' = R hat(W) and
 I W' = (I W) x W + X x R^T (0, 0, -m g). R is the attitude, W the angular velocity in the body frame, and X
 the centre of mass in the body frame. I is the inertia about the fixed point. The angular momentum in space is
-mu = R I W. Its derivative mu' = n - ad*_xi mu is the torque (R X) x (0, 0, -m g), where xi = R W. The energy
-and the angular momenta about the vertical and about X are conserved.
+mu = R I W, and its derivative is the torque: mu' = (R X) x (0, 0, -m g). The energy and the angular momenta
+about the vertical and about X are conserved.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -3,8 +3,8 @@
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
 I the inertia, and W and P are the angular velocity and momentum in the body frame. The moments of inertia are
 the same as in ``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. Methods
-preserve |P| and the energy only up to their order. With the coadjoint action, or on T*SO(3), Lie group
-methods preserve |P|.
+preserve |P| and the energy only within their errors. In contrast, Lie group methods preserve |P| exactly if P
+moves by the coadjoint action, or if the scene is on T*SO(3).
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -1,9 +1,10 @@
 """Free rigid body on S^3 x R^3. The attitude is a unit quaternion, and the momentum is a vector in R^3.
 
-The equations are q' = q (0, W)/2 with Hamilton's product, W = I^-1 P and P' = P x W (Hairer and Vilmart
-2006). The unit quaternion q, real part first, rotates vectors from the body frame to space. I is the inertia,
-and W and P are the angular velocity and momentum in the body frame. The moments of inertia are the same as in
-``free_rigid_body_product``. The attitude has four coordinates in place of nine.
+The equations are q' = q (0, W)/2 and P' = P x W with W = I^-1 P (Hairer and Vilmart 2006). The unit
+quaternion q, real part first, rotates vectors from the body frame to space, and q (0, W) is a product of
+quaternions. I is the inertia, and W and P are the angular velocity and momentum in the body frame. The
+moments of inertia are the same as in ``free_rigid_body_product``. The attitude has four coordinates in place
+of nine.
 """
 
 from sympy import Matrix, Rational, diag

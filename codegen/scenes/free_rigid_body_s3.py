@@ -23,7 +23,7 @@ axis = Matrix(q[1:])
 def turned(real: Expr, v: Matrix) -> Matrix:
     """Return the vector v rotated by a unit quaternion.
 
-    The quaternion has the real part ``real`` and the same imaginary part as q.
+    The real part of the quaternion is ``real``. Its imaginary part is that of the attitude q.
     """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)
@@ -63,7 +63,7 @@ figures = [
     Deviation(
         name="energy",
         title="Energy error up to t = 1000, four methods",
-        caption="The energy is 31.125 at the start. Heun RKMK leaves the energy surface, not the group.",
+        caption="The initial energy is 31.125. Heun RKMK leaves the energy surface, but stays on the group.",
         source="Fig. 2.7 of the thesis",
         quantity="energy",
         axis="largest energy error so far",

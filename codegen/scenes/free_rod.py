@@ -4,17 +4,19 @@ The model is the rod of J. C. Simo (Comput. Methods Appl. Mech. Engrg. 49 (1985)
 shear, extension, bending and torsion. A site is a cross section with the frame R = (d1, d2, d3) and the
 centre x; d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the mass of each
 piece is concentrated in its cross section. As in P. Betsch and P. Steinmann (Int. J. Numer. Methods Eng. 54
-(2002) 1775-1788), strains are formed from the directors d_a, whose mean is used between two sections:
+(2002) 1775-1788), the strains between two sections are formed from the mean directors (d_a + d_a')/2:
 
     Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
 
-V is the energy of two neighbouring sections; a prime denotes the second section. S = (GA, GA, EA) are the
-stiffnesses of shear and extension, and K = (EI, EI, GJ) are the stiffnesses of bending and torsion. With D_1
-= D_2 = GJ/2 and D_3 = EI - GJ/2, the second sum is sum_a K_a theta_a^2 for a small rotation theta between the
-sections. V is a polynomial and does not change if both sections move by the same rigid motion, so the total
-momentum is constant. In the code, energies and momenta are divided by ds. The equations stay the same. After
-the division, only V depends on ds.
+V is the energy of two neighbouring sections. A prime denotes the second section, and delta_a3 is 1 for a = 3
+and 0 otherwise. S = (GA, GA, EA) are the stiffnesses of shear and extension, and K = (EI, EI, GJ) are the
+stiffnesses of bending and torsion. The numbers D_a are D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. If the rotation
+theta between the sections is small, the second sum is therefore sum_a K_a theta_a^2. V is a polynomial. It
+does not change if both sections move by the same rigid motion, so the total momentum is constant.
+
+In the code, energies and momenta are divided by ds. This does not change the equations of motion. After the
+division, V is the only energy that depends on ds.
 """
 
 from collections.abc import Mapping, Sequence
@@ -30,7 +32,8 @@ q, mu = GROUP.point("q"), GROUP.dual("mu")
 R, x = Matrix(3, 3, q[:9]), Matrix(q[9:])
 ds = param("ds", Rational(1, 20))
 
-# The section is a circle with the radius L/10. The mass per length, the length and EI are 1, and E = 5/2 G.
+# The section is a circle with the radius L/10. The mass per length, the length L and EI are 1. Young's
+# modulus E and the shear modulus G satisfy 2 E = 5 G.
 MASS, INERTIA = 1, (Rational(1, 400), Rational(1, 400), Rational(1, 200))
 EI, GJ = param("EI", 1), param("GJ", Rational(4, 5))
 EA, GA = param("EA", 400), param("GA", Rational(27, 28) * 160)
@@ -50,21 +53,21 @@ bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns,
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
 """A map from an end of the rod to the coordinates of a cross section beyond this end.
 
-The offset (-1,) denotes the end at the first section, and (1,) denotes the end at the last section.
+The key (-1,) denotes the end at the first section, and (1,) denotes the end at the last section.
 """
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Cross sections beyond the free ends of a rod. All strains between the section and the end of the rod
-vanish, so the section exerts no force. The force vanishes for any matrix R, so rounding errors in R do not
-change the total momentum."""
+"""Cross sections beyond the free ends of a rod. Such a section has the matrix R of the end of the rod, and
+its position is chosen so that all strains vanish for any R. It exerts no force, so rounding errors in R do
+not change the total momentum."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. If ``gravity`` is given, gravity acts in the direction of -e1.
 
-    If ``ends`` contains a cross section for an end of the rod, a bond joins this end to that cross section.
-    Otherwise the end is free.
+    If ``ends`` contains an end of the rod, a bond joins this end to the given cross section. Ends that are
+    not in ``ends`` are free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
@@ -86,7 +89,7 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 def straight(number: int, spacing: float) -> list[list[float]]:
     """Return the states of the sections of a straight rod at rest along e3.
 
-    The centre of section i, i = 1, ..., number, is i ``spacing`` e3.
+    The sections have the distance ``spacing``. The first section has this distance from the origin.
     """
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]

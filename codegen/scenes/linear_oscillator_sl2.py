@@ -1,14 +1,16 @@
-"""Linear oscillators with a time-dependent frequency, as the action of SL(2) on four columns (q, p).
+"""Four linear oscillators with the same time-dependent frequency: SL(2) acts on the four columns (q, p).
 
-The equation is (q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y, where X and Y are the
-off-diagonal unit matrices (H. Marthinsen's thesis, paper 3, Table 4.1). The generator depends on the time
-alone, so the differential equation is linear: Magnus, Fer and Cayley methods accept it. Every step of these
-methods is a symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
+The equation is (q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y (H. Marthinsen's thesis,
+paper 3, Table 4.1). The matrix X has the entry 1 above the diagonal, Y has the entry 1 below the diagonal,
+and all other entries are 0. The generator depends on the time alone, so the differential equation is linear:
+Magnus, Fer and Cayley methods accept it. Every step of these methods is a symplectic matrix.
+``linear_oscillator`` is the same equation on T*R^4.
 
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
-*ExpSymNonCan* (Table 4.1). The thesis prints the errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan. The
-printed formulas give 5.82e-2 for ExpNonCan and 5.45e-2 for ExpSymNonCan. ExpSymNonCan has order 2. For Fig.
-4.2 the thesis prints eps = 0.6, but only eps = 0.1 fits the axis of the figure.
+*ExpSymNonCan* (Table 4.1). For ExpNonCan the thesis prints the error 2.61, but the printed formula of the
+method gives the error 5.82e-2. For ExpSymNonCan the thesis prints 0.149, but the formula gives 5.45e-2.
+ExpSymNonCan has order 2. For Fig. 4.2 the thesis prints eps = 0.6, but only eps = 0.1 fits the axis of the
+figure.
 """
 
 from fractions import Fraction
@@ -54,7 +56,8 @@ figures = [
     TimeSeries(
         name="energies",
         title="The energies H and −u of Lie-Gauss minus the exact energy",
-        caption="u is the momentum conjugate to the time. eps = 0.3, alpha = 0.1, h = 0.3. "
+        caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
+        "eps = 0.3, alpha = 0.1, h = 0.3. "
         "The reference is Lie-Gauss with h = 0.03.",
         source="Fig. 4.1a of the thesis",
         quantities=both,
@@ -66,7 +69,8 @@ figures = [
     TimeSeries(
         name="close_up",
         title="The energies H and −u of Lie-Euler beside the exact energy",
-        caption="u is the momentum conjugate to the time. eps = 0.3, alpha = 0.1, h = 0.6. "
+        caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
+        "eps = 0.3, alpha = 0.1, h = 0.6. "
         "The exact energy is that of Lie-Gauss with h = 0.03.",
         source="Fig. 4.1b of the thesis",
         quantities=both,
@@ -79,7 +83,8 @@ figures = [
     TimeSeries(
         name="symmetric_canonical",
         title="The energies H and −u of four methods: symmetric, canonical, both or neither",
-        caption="u is the momentum conjugate to the time. eps = 0.1, alpha = 0.123, h = 0.3. "
+        caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
+        "eps = 0.1, alpha = 0.123, h = 0.3. "
         "The thesis prints eps = 0.6, but only eps = 0.1 fits its figure.",
         source="Fig. 4.2 of the thesis",
         quantities=both,

@@ -2,9 +2,9 @@
 
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
 vessel. As in the scene ``free_rod``, the rod is a chain of N cross sections at the distance ds. The chain
-lies between a clamped section and a section that belongs to the vessel. The section of the vessel moves up
-and down, and pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` must be (N + 1)
-ds, the distance between the clamped section and the section of the vessel.
+lies between a clamped section and a section that is fixed to the vessel. The section of the vessel moves up
+and down, and pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` is the distance
+between the clamped section and the section of the vessel. It must be equal to (N + 1) ds.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

@@ -1,4 +1,4 @@
-"""Principal components: the gradient flow X' = (1 - X X^T) A X of tr(X^T A X)/2 on the Stiefel manifold.
+"""Principal components: the gradient flow of tr(X^T A X)/2 on the Stiefel manifold, X' = (1 - X X^T) A X.
 
 The scene is from section 2.4.2 of H. Marthinsen's thesis. X has two orthonormal columns of five rows, and
 A_ij = min(i, j) is the covariance matrix of the first five positions of a random walk. The columns of X tend

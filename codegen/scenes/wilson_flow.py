@@ -3,10 +3,10 @@
 The equation is V' = -g0^2 (dS(V)) V. The Wilson action S is given by g0^2 S = 2 Re tr(1 - P), where
 P = V0 V1 V2^H V3^H, and V^H is the conjugate transpose of V (M. Luescher, Properties and uses of the Wilson
 flow in lattice QCD, JHEP 08 (2010) 071, section 2). The derivative dS(V) is an element of the Lie algebra.
-The tableau ``luescher3`` is the Runge-Kutta method of appendix C of this article. For each link there is a
-loop around the plaquette that begins with this link. Let X be the product of the links of the loop. The
-generator of the link is the anti-Hermitian part of -X without its trace. S decreases to 0.
-The initial links are random with a fixed seed. A link V is stored as a real 6 x 3 matrix: Re V above Im V.
+The tableau ``luescher3`` is the Runge-Kutta method of appendix C of this article. Let X be the product of the
+four links around the plaquette, beginning with a link V. The generator of V is the traceless anti-Hermitian
+part of -X. S decreases to 0. The initial links are random with a fixed seed. A link V is stored as a real
+6 x 3 matrix: Re V above Im V.
 """
 
 from random import Random
@@ -44,7 +44,7 @@ def start() -> Matrix:
 
 
 def generator(loop: Matrix) -> list[Expr]:
-    """Return the coordinates in su(3) of the anti-Hermitian part of -X without its trace.
+    """Return the coordinates in su(3) of the traceless anti-Hermitian part of -X.
 
     ``loop`` is the 6 x 3 matrix of X: Re X above Im X.
     """

@@ -1,14 +1,14 @@
 """Wilson flow of a lattice gauge field: links in SU(3) between the sites of a periodic lattice.
 
 The equation is V' = -g0^2 (dS(V)) V with the Wilson action S (M. Luescher, Properties and uses of the Wilson
-flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). Each site has one link for each axis.
-The link leads to the next site along this axis. A link V is stored as a real 6 x 3 matrix, Re V above Im V. A
-plaquette is a square of four links. A staple of a link is the product of the other three links of a
-plaquette. Let X be the product of a link and the sum of its staples. The generator of the link is the
-anti-Hermitian part of -X without its trace.
+flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). The derivative dS(V) is an element of
+the Lie algebra. Each site has one link for each axis. The link leads to the next site along this axis. A link
+V is stored as a real 6 x 3 matrix, Re V above Im V. A plaquette is a square of four links. A staple of a link
+is the product of the other three links of a plaquette. Let X be the product of a link and the sum of its
+staples. The generator of the link is the traceless anti-Hermitian part of -X.
 
-The variable ``energy`` is the density E of the action: the sum of 2 Re tr(1 - P) over the plaquettes P that
-begin at a site.
+The variable ``energy`` is the density E of the action. Each site has one plaquette for each pair of axes. E
+is the sum of 2 Re tr(1 - P) over the plaquettes P of a site.
 """
 
 from collections.abc import Sequence
@@ -29,10 +29,10 @@ links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
 
 
 def link(axis: int, *steps: tuple[int, int]) -> Matrix:
-    """Return the real 6 x 6 matrix of the link along ``axis`` that begins at the end of a path.
+    """Return the real 6 x 6 matrix of a link along ``axis``.
 
-    Each step of the path is a pair: an axis, and a sign for the direction. The transposed matrix is the
-    inverse link.
+    The path ``steps`` leads from the current site to the site where the link begins. Each step is a pair: an
+    axis, and a sign for the direction. The transpose of the result is the matrix of the inverse link.
     """
     offset = [sum(sign for along, sign in steps if along == e) for e in axes]
     site = neighbour(links, offset) if any(offset) else links
