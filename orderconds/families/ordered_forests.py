@@ -5,8 +5,8 @@ The series of a Lie group method has one coefficient for each word, and the coef
 relations. The coefficients of Lyndon words therefore determine all other coefficients
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
-Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
-branches at each vertex. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
+Each condition is multiplied by the factorial of the length of its word, and by the factorials of the numbers
+of branches at all vertices. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the factorial of the number of trees, times the factorial of the number of branches at each
-    vertex.
+    r"""Return the product of the factorials of all word lengths in a forest. The trees of the forest form a
+    word. The branches at each vertex form another word.
 
     >>> scale(b"\0\1\1\0")
     4
@@ -112,8 +112,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word in a forest. The trees of the forest form a word, and so do the
-    branches at each vertex.
+    r"""Return the length of the longest word in a forest. The trees of the forest form a word. The branches
+    at each vertex form another word.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

@@ -1,7 +1,7 @@
 """Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
 III.2.2).
 
-If a file contains a single tableau, this tableau is used for both parts of the system.
+If a file contains a single tableau, this tableau is applied to both groups of variables.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class PartitionedFamily(Family):
     search_limit = 7
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "an unpartitioned system is a partitioned system with one part"
+        "rk": "in a system without a partition, one of the two groups of variables is empty"
     }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -78,8 +78,8 @@ class PartitionedFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a pair of tableaux that is not symplectic, else None.
 
-        The file of such a pair should state the order of the method in this family. The file of a symplectic
-        pair states the order in a family with fewer conditions instead.
+        The tableau file of a pair that is not symplectic should state the order of the method in this family.
+        For a symplectic pair, the file should state the order in the family ``sprk_separable`` instead.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
@@ -87,13 +87,14 @@ class PartitionedFamily(Family):
         return cls()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if both tableaux are symmetric."""
+        """Return True if ``method`` is a pair and both tableaux are proved to be symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family ``sprk``, whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4).
+        """Return the family ``sprk`` and the first tableau of a symplectic pair with b = bhat and non-zero
+        weights. Return None for any other method.
 
-        The pair must be symplectic, with b = bhat and non-zero weights. Return None for any other method.
+        The conditions of ``sprk`` are indexed by free trees (HLW VI.7, Theorem 7.4).
         """
         if not isinstance(method, PartitionedRungeKutta):
             return None

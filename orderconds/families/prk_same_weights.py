@@ -32,14 +32,16 @@ class SameWeightsFamily(PartitionedFamily):
 
     name = "prk_same_weights"
     description = (
-        "Partitioned Runge-Kutta methods with b = bhat: one condition for both root colours (HLW III.2.2)."
+        "Partitioned Runge-Kutta methods with b = bhat: the condition of a tree does not depend on the "
+        "colour of the root (HLW III.2.2)."
     )
     trees = "directed-rooted"
     illustrates = ("directed-rooted",)
     implies: ClassVar[Mapping[str, str]] = {}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree with edges of two kinds."""
+        """Return the conditions of the given order, one for each rooted tree with two kinds of edges. The two
+        kinds denote the coefficients a_ij and ahat_ij."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
@@ -61,7 +63,7 @@ class SameWeightsFamily(PartitionedFamily):
                 raise InputError(
                     f"b_{i} = {ring.text(x)} and b_hat_{i} = {ring.text(y)}",
                     where=f"family {self.name}",
-                    expected="the same weights in both parts",
+                    expected="the same weights in both tableaux",
                     hint="use the family 'prk'",
                 )
 

@@ -1,13 +1,13 @@
-"""Reductions: theorems that reduce the number of conditions to evaluate at one order, sometimes to zero.
+"""Reductions: theorems that make some or all conditions of an order superfluous.
 
 ``check`` evaluates the conditions of order n only if all conditions of lower order hold. There are three
 reductions:
 
 - *symmetry*: if n is even and the method is symmetric, the conditions of order n hold, because the order of a
   symmetric method is even (HLW II.3, Theorem 3.2);
-- *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
-  symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
-  rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
+- *substitution*: the conditions of another family may imply all conditions of order n and take less time. For
+  a symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of
+  all rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *truncation of dexpinv*: some methods truncate the series of dexpinv, the inverse of the differential of
   exp. The truncation leaves many conditions unchanged (:mod:`orderconds.families.dexpinv_cut`).
 
@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """A family whose conditions imply the required conditions, and the method in a format of this family."""
+    """Another family, whose conditions are checked instead, and the method in a format of this family."""
 
     family: Family
     method: Method
 
 
 class UnseenCut(Struct, frozen=True):
-    """The conditions that the truncation of dexpinv does not change.
+    """A description of the conditions that the truncation of dexpinv does not change.
 
-    ``order`` is the order of the method without truncation. The truncation does not change the contributions
-    of words of at most ``longest`` trees. The function ``length`` returns the length of the longest word that
-    contributes to the coefficient of a tree or forest.
+    ``order`` is the order of the method without truncation. Several words contribute to the coefficient of a
+    tree or forest, and the function ``length`` returns the length of the longest of these words. If this
+    length is at most ``longest``, the truncation does not change the coefficient.
     """
 
     order: int
@@ -52,9 +52,9 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric, because its order is then even. ``substitute``
-    describes the reduction by substitution, or is None if this reduction does not apply. ``cut`` describes
-    the truncation of dexpinv, or is None if the theorem on the truncation does not apply.
+    ``even`` is true if the method is symmetric, because its order is then even. ``substitute`` is another
+    family whose conditions may be checked instead, or None if no such family is known. ``cut`` describes the
+    conditions that the truncation of dexpinv does not change, or is None if no theorem describes them.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -72,7 +72,7 @@ class Reductions(Struct, frozen=True):
 
     def rest_follows(self, n: int) -> bool:
         """Return True if the method satisfies the conditions of order n of the family in ``substitute``.
-        These conditions imply all required conditions of order n."""
+        These conditions imply all conditions of order n of the original family."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -80,6 +80,7 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the truncation of dexpinv does not change the condition that has order n and the
-        key ``key``. An unchanged condition holds, because the method without truncation satisfies it."""
+        """Return True if a condition of order ``n`` holds because the truncation of dexpinv does not change
+        it. Without truncation, the method satisfies all conditions up to ``cut.order``. ``key`` is the key of
+        the condition."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

@@ -54,8 +54,8 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Add a family to the registry and return its class. Commands and tableau files can then name the family.
-    The function may be used as a decorator.
+    """Add the class of a family to the registry, and return this class. Commands and tableau files can then
+    name the family. The function may be used as a decorator.
 
     An installed package adds a family by the entry-point group ``orderconds.families``. Raises
     :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
@@ -174,7 +174,7 @@ def family_class(name: str) -> type[Family]:
         # The import of the module should register the family.
         import_module(BUILT_IN[name])
         assert name in _registered, (
-            f"{BUILT_IN[name]} has no class with this name and the decorator @register"
+            f"{BUILT_IN[name]} has no class with the decorator @register and the name {name!r}"
         )
     kind = _registered.get(name) or _installed(name)
     if kind is None:

@@ -29,14 +29,14 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that yields trees u, v and v o u for each edge at the root of a given tree. The edge joins the
-subtree u, which contains the root, to the subtree v. In the tree v o u, the root of v has u as an additional
-branch."""
+"""A function that yields three trees u, v and v o u for each edge at the root of a given tree. Without the
+edge, the tree is divided into u, which contains the root, and v. The tree v o u is v with u as an additional
+branch of the root."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
     r"""Return a polynomial as text. ``<tree>`` denotes the left-hand side of the condition of a tree.
-    Products come last.
+    Terms with fewer factors come first.
 
     >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
     "-<b'\\x00\\x01'> + 1/2 <b'\\x00'> <b'\\x00'>"
@@ -52,7 +52,7 @@ def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
 
 
 def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
-    """Return the polynomial x + scale y.
+    """Return the polynomial x + ``scale`` y.
 
     >>> add({(b"t",): Fraction(1)}, {(b"t",): Fraction(1)}, -1)
     {}
@@ -120,9 +120,9 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions, with a relation added to each dependent condition. The left-hand side of each
-    condition is a polynomial in the left-hand sides of independent conditions. The function ``polynomial``
-    maps the key of a condition to this polynomial.
+    """Return the conditions, and store a relation in each dependent condition. The relation is the left-hand
+    side of the condition as a polynomial in the left-hand sides of independent conditions. The function
+    ``polynomial`` maps the key of a condition to this polynomial. The function ``text`` writes a key as text.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -176,7 +176,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the coefficient of a word of trees in a group-like series, as a polynomial in the coefficients
     of Lyndon words.
 
-    The coefficient of each word ``w`` is multiplied by ``scale(w)``, as in the condition of the word.
+    Each of these coefficients is multiplied by ``scale(w)``, where ``w`` is the word of the coefficient.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

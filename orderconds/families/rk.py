@@ -42,7 +42,7 @@ class RungeKuttaFamily(Family):
     search_limit = 12
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "symplectic_rk": "every symplectic_rk method is a Runge-Kutta method"
+        "symplectic_rk": "the methods of the family symplectic_rk are Runge-Kutta methods"
     }
     low_order = "rk"
     bounds_others = True
@@ -68,15 +68,15 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b) of the method. On an abelian group, a method of a different format
-        reduces to a Runge-Kutta method. The tableau of this Runge-Kutta method is then returned."""
+        """Return the tableau (A, b) of the method. If the file has another format than (A, b), return the
+        tableau of the Runge-Kutta method to which the method reduces on an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for Butcher tableaux, commutator-free methods and compositions, else None.
 
-        The file of such a method should state the order of the method in this family.
+        The tableau file of such a method should state the order of the method in this family.
         """
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 

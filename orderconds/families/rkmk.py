@@ -66,8 +66,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     name = "rkmk"
     description = (
-        "Runge-Kutta-Munthe-Kaas methods; ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` "
-        "does not truncate it."
+        "Runge-Kutta-Munthe-Kaas methods; ``rkmk(r)`` truncates dexpinv after the power r, and ``rkmk`` "
+        "does not truncate dexpinv."
     )
     formats = ("rk",)
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
@@ -88,17 +88,18 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in a forest. The trees of the forest form a word, and so do
-        the branches at each vertex."""
+        """Return the length of the longest word in a forest. The trees of the forest form a word. The
+        branches at each vertex form another word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices, or None.
+        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
-        condition. The truncation of dexpinv changes no condition of an order below R + 3. Return None if
-        dexpinv is not truncated, or if ``order`` < 3.
+        The condition belongs to the word ``[.] . ... .``, which consists of one tree with two vertices and
+        ``order`` - 2 trees with one vertex. The module docstring defines R. If ``order`` is R + 3, no method
+        with truncated dexpinv satisfies this condition. The truncation of dexpinv changes no condition of an
+        order below R + 3.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -136,8 +137,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order of methods with this truncation of dexpinv, or ``limit`` if ``limit`` is
-        lower.
+        """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff``, or
+        ``limit`` if ``limit`` is lower.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -153,10 +154,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The coefficients of words in the exponents u_i = sum_j a_ij dexpinv_{u_j} k_j, as index sums.
+    """The coefficients of words in the series of the exponents, as index sums.
 
-    Here u_i is the exponent of stage i, and k_j is the value of the vector field at stage j. If the argument
-    ``i`` is None, b_j replaces a_ij, and the exponent is that of the update.
+    Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Then u_i =
+    sum_j a_ij dexpinv_{u_j} k_j. If the argument ``i`` of a method is None, u_i is the exponent of the
+    update, and b_j replaces a_ij.
     """
 
     def __init__(self, cutoff: int | None) -> None:
@@ -207,8 +209,8 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The letters before the tree come from u^m, and the letters after the tree from u^n. The
-                # power u^0 has no letters, and every other power has at least one.
+                # A term of dexpinv_u x is q u^n x u^m. The letter ``tree`` comes from x. The letters before
+                # it come from u^m, and the letters after it come from u^n. Only the power u^0 has no letters.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # The rightmost factor of u^n x u^m acts first, so the letters of u^m come first in a
                     # word. The class DexpinvSeries has the same convention.
@@ -223,8 +225,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # The values of random methods with ``order`` stages distinguish all trees with
-        # ``order`` vertices.
+        # With ``order`` stages, different trees with ``order`` vertices have different elementary weights.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

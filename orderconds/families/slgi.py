@@ -29,7 +29,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     name = "slgi"
     description = (
-        "Symplectic Lie group integrators: VRKMK without brackets; theta-methods if there is one stage."
+        "Symplectic Lie group integrators: variational Runge-Kutta-Munthe-Kaas methods without brackets. The "
+        "methods with one stage are theta-methods."
     )
     takes_cutoff = False
 
@@ -55,5 +56,6 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order. The bound is at least the order in ``vrkmk(0)``."""
+        """Return a lower bound of the order: the larger of the order in ``vrkmk(0)`` and the lower bound from
+        the base class."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

@@ -1,5 +1,5 @@
-"""Splittings of a vector field A + B + ... into several fields A, B, .... Each step is a product of flows of
-these fields.
+"""Splittings of a vector field A + B + .... The summands A, B, ... are called the parts of the splitting.
+Each step is a product of flows of the parts.
 
 The conditions are indexed by words over A, B, .... One step of size h is the product ``... exp(b_1 h B)
 exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. In the exact flow exp(h (A + B +
@@ -62,7 +62,7 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting into two parts"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "every splitting T + V is a splitting into two fields"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:
@@ -71,12 +71,13 @@ class SplittingFamily(WordFamily):
         self.parts = parts
 
     def label(self) -> str:
-        """Return the label of the family: ``splitting``, followed by the number of parts if it is not two."""
+        """Return the label of the family: ``splitting`` for two parts, and a label such as ``splitting(3)``
+        for any other number of parts."""
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the number of parts of the splitting is not
-        ``self.parts``."""
+        """Raise :class:`~orderconds.errors.InputError` if ``method`` does not split the vector field into
+        ``self.parts`` fields."""
         parts = expect(method, Splitting).parts
         if len(parts) != self.parts:
             right = SplittingFamily(len(parts)).label()
@@ -114,20 +115,20 @@ class SplittingFamily(WordFamily):
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as an index sum.
 
-        The coefficients a_i, b_i, ... are the step sizes of the parts A, B, ... in stage i. For two parts,
-        the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
+        The coefficients a_i, b_i, ... are the step sizes of the fields A, B, ... in stage i. If there are
+        only two fields A and B, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
     def for_method(self, method: Method) -> Family:
-        """Return the family of splittings that have the same number of parts as the given splitting."""
+        """Return the family of splittings into n fields, where n is the number of fields of ``method``."""
         return SplittingFamily(len(expect(method, Splitting).parts))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a splitting, or for a composition of a method and its adjoint, else None.
 
-        The file of such a method should state the order of the method in this family.
+        The tableau file of such a method should state the order of the method in this family.
         """
         method = tableau.method
         if isinstance(method, AdjointComposition):
@@ -135,8 +136,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. The relations
-        between brackets that define ``rkn`` change only conditions of order 4 and more."""
+        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. Up to
+        order 3, both families have the same conditions."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -144,8 +145,8 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label ``rkn`` of Nystroem splittings if the option ``--rkn`` is set, else the label of
-        this family."""
+        """Return ``rkn``, the label of the family of Nystroem splittings, if ``nystroem`` is true. Otherwise
+        return the label of this family. The option ``--rkn`` sets ``nystroem``."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -154,8 +155,8 @@ class SplittingFamily(WordFamily):
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of splittings as unknowns of a search. Every stage contains the flows of
-        all parts."""
+        """Return the unknowns of a search: the step sizes of a splitting with ``stages`` stages. Every stage
+        contains the flows of all parts."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
@@ -175,8 +176,10 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the coefficient of a word in the series of one step as an index sum, multiplied by the
-    factorials of the run lengths. A run is a maximal block of equal letters.
+    """Return the left-hand side of the condition of a word as an index sum.
+
+    The left-hand side is the coefficient of the word in the series of one step, times the factorials of the
+    run lengths. A run is a maximal block of equal letters.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()
@@ -189,8 +192,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In each stage, the flow of A acts first, then the flow of B, and so on. If the letters of blocks
-            # i and j are in this order, both blocks may come from the same stage: i <= j.
+            # The index i of a block of equal letters is a stage, and j is the stage of the next block. In
+            # each stage, the flow of A acts first, then the flow of B, and so on. If the letter of the first
+            # block comes earlier in the alphabet, both blocks may belong to the same stage: i <= j.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -202,10 +206,10 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i.
+    """Return the left-hand side of the condition of a word over two letters A and B, as an index sum.
 
-    If a letter A is between two letters B, it has the factor c_j - c_i. Here i and j are the stages of the
-    two letters B, with i < j.
+    Let c_i = a_1 + ... + a_i. If the first letter B belongs to stage i, each letter A before it gives the
+    factor c_i. Each letter A between two letters B of stages i < j gives the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -247,20 +251,22 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield all divisions of runs into blocks, as pairs of a multinomial factor and the block lengths.
+    """Yield all ways to divide runs of equal letters into blocks. ``lengths`` contains the lengths of the
+    runs.
 
-    ``lengths`` contains the lengths of the runs.
+    Each result is a pair: the product of the multinomial coefficients of all runs, and the block lengths of
+    each run.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the coefficients a, b, ... that occur in formulas of conditions. Each coefficient is a list with
-    one entry for each stage.
+    """Return a map from the names ``a``, ``b``, ... to the step sizes of the parts A, B, .... Each value of
+    the map is a list with one step size for each stage.
 
-    If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
-    contains the sums a_1 + ... + a_i.
+    If a stage does not contain the flow of a part, the step size is zero. For two parts, the map also
+    contains ``c``, the list of the sums a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -52,14 +52,14 @@ class SymplecticPartitionedFamily(Family):
     formats = ("rk",)
     symbols: ClassVar[Mapping[str, str]] = {
         **Family.symbols,
-        "ahat": r"$\hat{a}_{ij} = b_j - b_j a_{ji}/b_i$ are the coefficients of the momenta",
+        "ahat": r"$\hat{a}_{ij} = b_j - b_j a_{ji}/b_i$ are the tableau coefficients for the momenta",
     }
     trees = "directed"
     illustrates = ("directed",)
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field"
+        "rk": "for H = p.f(q), the positions q are computed by the Runge-Kutta method for q' = f(q)"
     }
     low_order = "rk"
     bounds_others = True
@@ -71,15 +71,15 @@ class SymplecticPartitionedFamily(Family):
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with directed edges. Each dependent condition stores its
-        relation to the independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree with directed edges. Each
+        dependent condition stores its relation to the independent conditions."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
         """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``. The ring
-        must have division, because the formulas divide by b_i.
+        needs division, because the formulas divide by b_i.
 
         Raises :class:`~orderconds.errors.ZeroWeight` if one of the weights b_i is or may be zero.
         """
@@ -109,11 +109,11 @@ class SymplecticPartitionedFamily(Family):
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, derived from the order p in the family ``rk``.
+        """Return a lower bound of the order in this family.
 
-        If ahat_ij = a_ij, the order is p. If Butcher's simplifying assumptions B(2m), C(m) and D(m) hold for
-        a_ij, then C(m) and D(m) also hold for ahat_ij. In this case the order is at least min(p, 2m + 1), by
-        the proof of Butcher's theorem (Jay 1996, for Lobatto pairs).
+        Let p be the order in the family ``rk``. If ahat_ij = a_ij, the bound is p. If Butcher's simplifying
+        assumptions B(2m), C(m) and D(m) hold for a_ij, then C(m) and D(m) also hold for ahat_ij. In this case
+        the bound is min(p, 2m + 1), by the proof of Butcher's theorem (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

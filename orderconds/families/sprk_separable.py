@@ -3,7 +3,7 @@
 For separable Hamiltonians, neighbouring vertices of every tree differ in colour. The relation b_i ahat_ij +
 bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
 root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
-and bhat may differ, as in pairs that are equivalent to splittings.
+and bhat may differ, for example if the pair is equivalent to a splitting.
 """
 
 from __future__ import annotations
@@ -58,13 +58,13 @@ class SeparableFamily(Family):
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with alternating colours. Each dependent condition stores
-        its relation to the independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree with alternating colours. Each
+        dependent condition stores its relation to the independent conditions."""
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a pair that is not symplectic."""
+        """Raise :class:`~orderconds.errors.InputError` for a pair of tableaux that is not symplectic."""
         if isinstance(method, PartitionedRungeKutta):
             require_symplectic_pair(self.name, method, ring)
 
@@ -87,7 +87,7 @@ class SeparableFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a symplectic pair of tableaux, else None.
 
-        The file of such a pair should state the order of the method in this family.
+        The tableau file of such a pair should state the order of the method in this family.
         """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
@@ -98,14 +98,16 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of one tableau (A, b) as the unknowns of a search."""
+        """Return the unknowns of a search: the coefficients of one tableau (A, b)."""
         return tableau_form(stages, explicit, divides=True)
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if b_i ahat_ij + bhat_j a_ji differs from b_i bhat_j.
+    """Raise :class:`~orderconds.errors.InputError` if the pair of tableaux (a, b) and (ahat, bhat) is not
+    symplectic.
 
-    If the coefficients are balls (intervals), the ball of the difference must contain zero.
+    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. If the coefficients are
+    balls (intervals), the error is raised only if the two sides are proved to be different.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -31,8 +31,8 @@ class StageForm(Struct, frozen=True):
 
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
-    """Return the names of the coefficients of a Butcher tableau (A, b), and the function that builds the
-    tableau. The matrix A is strictly lower triangular if ``explicit`` is true, otherwise full.
+    """Return the :class:`StageForm` of a Butcher tableau (A, b) with ``stages`` stages. The matrix A is
+    strictly lower triangular if ``explicit`` is true, otherwise full.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))
@@ -51,7 +51,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
     """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. Families whose coefficients are
-    not a tableau (A, b) call this function, because only a method with a matrix A can be explicit.
+    not a tableau (A, b) call this function: a method is explicit only if its matrix A is strictly lower
+    triangular.
 
     >>> refuse_explicit("splitting", False)
     """

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 @register
 class SymmetricCompositionFamily(CompositionFamily):
-    """Compositions of a symmetric method with palindromic step sizes gamma_1, ..., gamma_s.
+    """Compositions of a symmetric method. The step sizes gamma_1, ..., gamma_s form a palindrome.
 
     >>> for n in (1, 2, 3, 4):
     ...     for condition in SymmetricCompositionFamily().conditions(n):
@@ -54,7 +54,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         "Symmetric compositions of a symmetric method of order two; words of odd weight index the conditions."
     )
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
+    implies: ClassVar[Mapping[str, str]] = {"composition": "symmetric compositions belong to both families"}
     bounds_others = False
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -73,7 +73,7 @@ class SymmetricCompositionFamily(CompositionFamily):
                 )
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words over odd letters whose letters have the total weight ``order``."""
+        """Return all words whose letters are odd integers with the sum ``order``."""
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -91,8 +91,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the first half of the step sizes as unknowns of a search. The second half follows by
-        symmetry. If ``stages`` is odd, the middle step size is also an unknown."""
+        """Return the unknowns of a search: the first half of the step sizes, and the middle step size if
+        ``stages`` is odd. The second half follows by symmetry."""
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
         return StageForm(
@@ -101,9 +101,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for compositions of symmetric methods with palindromic step sizes, else None.
+        """Return this family for a composition of a symmetric method if the step sizes form a palindrome,
+        else None.
 
-        The file of such a composition should state the order of the method in this family.
+        The tableau file of such a composition should state the order of the method in this family.
         """
         method = tableau.method
         if not isinstance(method, Composition):
@@ -115,8 +116,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return palindromic compositions with random step sizes, one composition for each sample of
-        ``ring``."""
+        """Return a composition whose step sizes are random elements of ``ring`` and form a palindrome."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))

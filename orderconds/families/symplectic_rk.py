@@ -53,8 +53,8 @@ class SymplecticFamily(Family):
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees. Each dependent condition stores its relation to the
-        independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree. Each dependent condition stores
+        its relation to the independent conditions."""
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 
     def require(self, method: Method, ring: Ring) -> None:

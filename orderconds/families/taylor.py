@@ -61,7 +61,7 @@ class TaylorFamily(Family):
         """
         if self.degree is None:
             raise InputError(
-                f"the family {self.name} without a degree", expected="a degree", hint="write taylor(12)"
+                f"the family {self.name} has no degree", expected="a degree", hint="write taylor(12)"
             )
         return self.degree
 
@@ -86,8 +86,8 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of Taylor's method
-        evaluates recurrences."""
+        """Return None. A step of Taylor's method evaluates recurrences instead of the vector field, so the
+        numbers of :class:`Work` do not apply."""
         return None
 
     def _unconditional(self) -> InputError:

@@ -4,7 +4,8 @@ Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian a
 consists of
 
 - the discrete Lagrangian ``h sum_i b_i l(Q_i, xi_i)``;
-- the stage positions ``Q_i = exp(X_im) ... exp(X_i1) q0`` with ``X_iJ = h sum_j alpha_iJj xi_j``;
+- the stage positions ``Q_i = exp(X_im) ... exp(X_i1) q0``, where ``X_iJ = h sum_j alpha_iJj xi_j`` is the
+  exponent number J of stage i, and alpha_iJj are coefficients of the method;
 - an update of the same form as the stages, with coefficients beta_Jj;
 - the weights ``b_i = sum_J beta_Ji``.
 
@@ -41,20 +42,22 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    Random methods determine which conditions are independent. The random methods have ``update`` exponentials
-    in the update and ``stage`` exponentials in each stage. With the default numbers, there is one independent
-    condition for each elementary Hamiltonian.
+    Random methods determine which conditions are independent. ``update`` is the number of exponentials in the
+    update of these methods, and ``stage`` is the number of exponentials in each stage. If both numbers are
+    None, there is one independent condition for each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
     """
 
     name = "vcf"
-    description = "Variational commutator-free methods: several stage velocities in one exponential."
+    description = (
+        "Variational commutator-free methods: each exponential may combine the velocities of several stages."
+    )
     formats = ("cf", "rk")
     symbols = EXPONENTIAL_SYMBOLS
     implies: ClassVar[Mapping[str, str]] = {
-        "cf": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G"
+        "cf": "if H is linear in p, the positions q are computed by the CF method for a vector field on G"
     }
     unknowns = "cf"
     equal_abscissae = True
@@ -75,8 +78,8 @@ class VariationalCommutatorFree(ActionFamily):
         )
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods. Each exponential combines the velocities of all
-        stages."""
+        """Return the action series of a method with random coefficients in ``ring``. Each exponential
+        combines the velocities of all stages."""
         stages = max(order - 1, 2)
         numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
         rows = [
@@ -94,7 +97,7 @@ class VariationalCommutatorFree(ActionFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a commutator-free method without zero weights, else None.
 
-        The file of such a method should state the order of the method in this family.
+        The tableau file of such a method should state the order of the method in this family.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):

@@ -1,9 +1,9 @@
 """Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
-The source is Bogfjellmo and Marthinsen, equations (3.18) and (3.19). Their Proposition 3.5.7 states the six
-conditions of order 3. The conditions of every order are computed from the action series, the series expansion
-of the discrete action.
+Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of this source
+states the six conditions of order 3. The conditions of every order are computed from the action series, the
+series expansion of the discrete action.
 """
 
 from __future__ import annotations
@@ -43,14 +43,15 @@ class VariationalCrouchGrossman(ActionFamily):
 
     name = "vcg"
     description = (
-        "Variational Crouch-Grossman methods: a Butcher tableau on T*G, one exponential for each coefficient."
+        "Variational Crouch-Grossman methods on T*G: each non-zero coefficient of a Butcher tableau gives "
+        "one exponential."
     )
     formats = ("rk",)
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
-        "cg": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G",
+        "cg": "if H is linear in p, the positions q are computed by the CG method for a vector field on G",
         "sprk": "a vector space is a Lie group under addition",
-        "vcf": "every VCG method is a VCF method with one velocity in each exponential",
+        "vcf": "VCG methods are VCF methods in which each exponential contains the velocity of one stage",
     }
     abelian = "sprk"
     unknowns = "rk"

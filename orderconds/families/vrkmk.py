@@ -61,11 +61,11 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices, or None.
+        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
-        condition. The truncation of dexpinv changes no condition of an order below R + 3. Return None if
-        dexpinv is not truncated, or if ``order`` < 3.
+        The condition belongs to the action tree ``o(o|L(o ... o))``, where L has ``order`` - 2 branches. The
+        module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
+        condition. The truncation of dexpinv changes no condition of an order below R + 3.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -73,7 +73,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux whose matrix A is full."""
+        """Return the action series of a tableau (A, b) with random coefficients in ``ring``."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return MuntheKaasActionSeries(ring, rows[:-1], rows[-1], self.cutoff)

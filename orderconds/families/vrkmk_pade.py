@@ -2,10 +2,10 @@
 of dexp replaces dexpinv.
 
 Let xi_i be the velocity at stage i, let X_i be the exponent of the stage, and let dexp^(r) be dexp, truncated
-after the r-th power of ad. The exponents are linear combinations of the vectors v_i, which solve the
-equations dexp^(r)(X_i) v_i = xi_i. This is the alternative approach in Section 3.4.1 of Marthinsen's thesis.
-As in every variational family, each action tree gives one condition, and the left-hand sides are coefficients
-of the action series of the method.
+after the r-th power of ad. Let v_i be the solution of the equation dexp^(r)(X_i) v_i = xi_i. The exponents
+are linear combinations of the vectors v_i. This is the alternative approach in Section 3.4.1 of Marthinsen's
+thesis. Each action tree gives one condition. The left-hand side of the condition is the coefficient of the
+tree in the action series of the method.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family ``vrkmk_pade(r)``, whose methods are given by tableaux (A, b) with non-zero weights. The
-    series of dexp in powers of ad is truncated after the power ``cutoff``.
+    option ``cutoff`` is the power r of ad after which the series of dexp is truncated.
 
-    Without ``cutoff``, dexp is not truncated, and the family is equal to ``vrkmk`` without ``cutoff``.
+    If ``cutoff`` is None, dexp is not truncated, and the methods are those of the family ``vrkmk``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -46,7 +46,10 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """
 
     name = "vrkmk_pade"
-    description = "VRKMK: ``vrkmk_pade(r)`` truncates the series of dexp after the power r and inverts it."
+    description = (
+        "Variational Runge-Kutta-Munthe-Kaas methods: ``vrkmk_pade(r)`` inverts the series of dexp, "
+        "truncated after the power r."
+    )
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
         """Return the action series of a tableau (A, b)."""
@@ -57,7 +60,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux whose matrix A is full."""
+        """Return the action series of a tableau (A, b) with random coefficients in ``ring``."""
         if self.cutoff is None:
             return super().random_series(ring, generator, order)
         stages = max(order - 1, 2)

@@ -57,9 +57,9 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family. An element of ``ring`` contains several samples of a
-        coefficient, and each sample gives one method. The methods are general enough to distinguish all
-        conditions up to ``order``."""
+        """Return a method whose coefficients are random elements of ``ring``. Each element contains several
+        samples, so the result represents one random method for each sample. The methods are general enough to
+        distinguish all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. The conditions of these words are independent.
@@ -82,7 +82,7 @@ class WordFamily(Family):
 
     def polynomial(self, word: Word) -> Polynomial:
         """Return the coefficient of a word in the series of one step as a polynomial in the coefficients of
-        independent words."""
+        Lyndon words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:

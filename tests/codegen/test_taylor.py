@@ -207,7 +207,7 @@ def test_families_with_tableaux_ask_for_one_and_this_family_for_none():
     families = families_for(scenes.load("duffing"))
     assert parse("taylor(12)", families).label == "taylor(12)"
     for text, message in (
-        ("taylor", "the family taylor without a degree"),
+        ("taylor", "the family taylor has no degree"),
         ("taylor(0)", "expected a degree from 1 to 40"),
         ("taylor(41)", "expected a degree from 1 to 40"),
         ("taylor:rk4", "the family taylor has no tableaux"),

@@ -278,7 +278,7 @@ def test_without_claims_the_format_names_the_family() -> None:
     ("family", "text", "message"),
     [
         ("splitting(3)", SPLITTING + 'step = [["T", 1]]', "use the family 'splitting'"),
-        ("rkn", SPLITTING + 'step = [["T", 1]]', "without the key rkn"),
+        ("rkn", SPLITTING + 'step = [["T", 1]]', "has no key rkn"),
         ("symmetric_composition", PAIR + 'alpha = ["1"]\nbeta = ["0"]', "symmetric-2"),
         ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "use the family 'magnus'"),
         ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "use the family 'cayley'"),
