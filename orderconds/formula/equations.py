@@ -19,7 +19,8 @@ _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 @dataclass(frozen=True)
 class Equation:
-    """An equation in LaTeX: both sides, a picture of a tree for the first column, a label, and a comment."""
+    """An equation in LaTeX: both sides, a label, a comment, and a picture of a tree. The picture is printed
+    in a column before the equation."""
 
     left: str
     right: str
@@ -97,8 +98,8 @@ def _terms(latex: str, within: int) -> list[str]:
 
 
 def _width(latex: str) -> float:
-    """Return an estimate of the printed width of a formula in characters. Fractions, subscripts and
-    superscripts count as narrower than their LaTeX text."""
+    """Return an estimate of the printed width of a formula, in characters. Fractions, subscripts and
+    superscripts are narrower in print than their LaTeX code suggests."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

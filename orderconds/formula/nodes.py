@@ -127,7 +127,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Factors that contain sums are slow to compare. If there is at most one such factor, it is not compared.
+    # Factors that contain sums are slow to compare. A single factor of this kind is not compared, because it
+    # differs from all coefficients.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -205,8 +206,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
     bound indices get names that no other formula contains.
 
-    So two formulas returned by this function can be multiplied and written under one sum. :func:`named`
-    replaces the unique names by short names.
+    Two formulas that this function returns have different bound indices. Therefore their product can be
+    written under one sum. :func:`named` replaces the unique names by short names.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

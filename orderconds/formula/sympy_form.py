@@ -50,11 +50,11 @@ def _index(name: str) -> sympy.Expr:
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
     """Return the limits of the summation ``indices``. If i is one of these indices, a relation ``i < j``
-    gives the upper limit j - 1 of i. Otherwise the relation gives the lower limit i + 1 of j."""
+    gives the upper limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost index comes first. The limits of an index may depend only on indices further
-        # out. Therefore the loop chooses an index that does not occur in the limits of the remaining indices.
+        # In SymPy the innermost index comes first. The limits of an index may depend only on later indices.
+        # Therefore each pass chooses an index on which the limits of the remaining indices do not depend.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
@@ -72,8 +72,10 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
-    """Return ``expression``, a result of :func:`export`, with its sums expanded. The limits ``s`` and ``m``
-    are replaced by ``stages`` and ``exponentials``. SymPy's ``doit`` does not expand sums with ``i < j``.
+    """Expand all sums in ``expression``, which is a result of :func:`export`.
+
+    The upper limits ``s`` and ``m`` of the sums are replaced by ``stages`` and ``exponentials``. SymPy's
+    ``doit`` does not expand sums with ``i < j``.
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

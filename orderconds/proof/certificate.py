@@ -59,7 +59,8 @@ class Certificate:
 
     def as_json(self) -> dict[str, object]:
         """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns and
-        the error bounds. The list ``pins`` contains the names of decimals that are taken as exact numbers."""
+        the error bounds. The entry ``pins`` contains the names of the decimals that are taken as exact
+        numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -74,8 +75,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its
-    decimals.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
+    decimals of ``tableau``.
 
     The solution is enclosed to at least ``bits`` binary digits. More digits are used if the decimals of the
     file require them. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof
@@ -109,8 +110,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file of the tableau. None if there is no file, or if the [proof] table of the
-        tableau has been replaced."""
+        """The content of the file from which the tableau was read. None if there is no file, or if the
+        tableau no longer has the [proof] table of the file."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 

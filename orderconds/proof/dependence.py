@@ -1,10 +1,11 @@
 """A search for dependent conditions of a sub-family. The sub-family contains the methods whose coefficients
 satisfy the formulas of a tableau file.
 
-Each dependent condition is first written as a combination of other conditions modulo primes. The coefficients
-of the combination are then converted to fractions.
+Modulo primes, each dependent condition is first written as a polynomial in other conditions. The coefficients
+of the polynomial are then converted to fractions.
 
-The results of this module are not proofs, because a rank modulo a prime can be too small.
+The results of this module are not proofs, because conditions that are independent over Q can be dependent
+modulo a prime.
 :class:`orderconds.proof.exact_member.ExactMember` verifies each combination in exact arithmetic.
 """
 
@@ -28,18 +29,20 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The number of random methods of the sub-family in the first attempt. More methods are used if the number of
-conditions requires them."""
+"""The number of random methods of the sub-family in the first attempt. If this number is too small to
+distinguish all conditions, another attempt uses more methods."""
 
 SPARE = 24
-"""The number of additional random methods, which make accidental dependences improbable."""
+"""At each order, the number of random methods exceeds the number of independent conditions and products of
+conditions by at least this number. The excess makes accidental dependences improbable."""
 
 PRIME_BITS = 61
-"""The size of the primes in bits. A residue of this size fits in a machine word."""
+"""The size, in bits, of the primes modulo which conditions are evaluated. A residue of this size fits in a
+machine word."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. The coefficients of the combinations are reconstructed from their residues
-modulo these primes. More primes are needed for coefficients with larger numerators and denominators."""
+"""The largest number of primes that are tried. A rational coefficient is reconstructed from its residues
+modulo several primes. Coefficients with larger numerators and denominators need more primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A map from each dependent condition to a linear combination of monomials. The left-hand side of the
@@ -50,8 +53,9 @@ square root in the tableau file."""
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and the dependent conditions as combinations of independent conditions
-    modulo several primes.
+    """The independent conditions (``pivots``) of a sub-family, and the dependent conditions. For each prime
+    in ``primes``, ``residues`` contains the dependent conditions as polynomials in the independent
+    conditions.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -59,9 +63,9 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield pairs (condition, combination) for all dependent conditions. The left-hand side of the
-        condition is equal to the combination of independent conditions. The combination is None if more
-        primes are needed to determine its coefficients."""
+        """Yield a pair (condition, combination) for each dependent condition. The combination is a polynomial
+        in the left-hand sides of independent conditions. It is equal to the left-hand side of the dependent
+        condition. The combination is None if more primes are needed to determine its coefficients."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -127,12 +131,12 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Return the independent conditions, and the dependent conditions as combinations of independent
-    conditions, modulo one prime.
+    """Return two values: the independent conditions modulo one prime, and a map from each dependent condition
+    to a polynomial in the independent conditions.
 
-    If the formulas contain a square root sqrt(d), the combinations are computed for both residues r and -r
-    with the square d. The two results determine coefficients of the form x + y sqrt(d). Return None if the
-    independent conditions for r and for -r differ.
+    If the formulas contain a square root sqrt(d), let r be a residue with the square d. The polynomials are
+    computed twice, with the value r and with the value -r of sqrt(d). The two results determine coefficients
+    of the form x + y sqrt(d). Return None if the independent conditions for r and for -r differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -179,8 +183,9 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The values of the product of the left-hand sides of the conditions in ``factors``. ``members`` contains
-    the values at random methods of the sub-family, and ``flow`` is the value at the exact flow."""
+    """A monomial and its values modulo a prime. The monomial is the product of the left-hand sides of the
+    conditions in ``factors``. ``members`` contains its values at random methods of the sub-family. ``flow``
+    is its value at the exact flow."""
 
     factors: Monomial
     members: Sample
@@ -207,8 +212,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return the values of the conditions at ``count`` random methods and at the exact flow. ``root`` is
-        a residue. It is the value of the only square root in the formulas, or None if there is no such
-        root."""
+        the residue that replaces the only square root in the formulas. If ``root`` is None, random residues
+        replace all roots."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -222,8 +227,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring of samples modulo a prime, in which each radical has a random value. If ``square_root`` is not
-    None, every square root has this value."""
+    """A ring of samples modulo a prime, in which roots have prescribed or random values. The value of every
+    square root is ``square_root`` if this residue is not None. All other roots have random values."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)

@@ -6,9 +6,9 @@ reduction is a theorem that makes some of these equations unnecessary. The assum
 verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
-  order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
-  For compositions of midpoint rules, the order of the composition implies the order of the tableau
-  (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+  order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (Hairer, Lubich
+  and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). For compositions of midpoint rules, the order of
+  the composition implies the order of the tableau (Bogfjellmo and Marthinsen, Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: each condition belongs to a word. Up to order 2s, the
   conditions of words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
@@ -20,7 +20,7 @@ verified exactly, from the formulas in the file and not from the decimals:
 
 A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
 equations of such a scheme also contain the conditions of rooted trees for the second update
-(docs/explanation/two_registers.md). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+(docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The largest letter in the words that index conditions of a Magnus method on Gauss nodes. None for other
-    methods."""
+    """The number s for a Magnus method on s Gauss nodes. Each condition then belongs to a word in the letters
+    1, ..., s. None if the words are not restricted."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
@@ -117,8 +117,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Ranks modulo primes may be too small, and a necessary equation would then be missing. Therefore the
-    # dependence of the omitted conditions is verified over the rationals Q.
+    # Modulo a prime, an independent condition can seem dependent. A necessary equation would then be missing.
+    # Therefore the dependence of the omitted conditions is verified over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -130,8 +130,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the ``[proof]`` table of a tableau file specifies. The assumptions of the
-    reduction are tested first.
+    """Return the equations that the ``[proof]`` table of a tableau file specifies. If the table names a
+    reduction, the assumptions of the reduction are tested first.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -192,8 +192,9 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    Return an empty tuple in two cases: the update of the embedded method does not consist of one further
-    exponential, or the order of the embedded method is higher than the order in ``proof``.
+    The conditions are required only if the update of the embedded method applies all exponentials of the
+    method and then one more, and if the order of the embedded method is at most the order in ``proof``. In
+    all other cases the result is empty.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
@@ -204,8 +205,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to the order in ``proof``. This is true for all
-    coefficients that satisfy the formulas in the file."""
+    """Return conditions that imply all conditions up to the order in ``proof`` for all coefficients that
+    satisfy the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -263,8 +264,8 @@ def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
 def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
         raise NotProved(
-            f'reduction = "simplifying": the assumptions imply order {order}, but [proof] states order = '
-            f"{proof.order}"
+            f'reduction = "simplifying": the simplifying assumptions imply only order {order}, but [proof] '
+            f"states order = {proof.order}"
         )
     return proof.order
 

@@ -1,5 +1,5 @@
 """Exact values of the conditions at one random method. The values are used to verify that a condition is a
-combination of other conditions.
+polynomial in other conditions.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
 a method of this sub-family. The coefficients of a random member (:mod:`orderconds.tableau.random_member`) are
@@ -32,12 +32,12 @@ Reading = Callable[[Method, Ring], Method]
 evaluates its conditions. The arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
-"""A monomial, as a tuple of conditions. The monomial is the product of the left-hand sides of the
-conditions."""
+"""The product of the left-hand sides of several conditions, represented by the tuple of these conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
-"""A linear combination of monomials. A pair (x, y) is the coefficient x + y sqrt(d), where sqrt(d) is the
-only square root in the file."""
+"""A polynomial in the left-hand sides of conditions, as a map from monomials to coefficients. A pair (x, y)
+is the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the formulas of the tableau
+file."""
 
 
 @dataclass(frozen=True)
@@ -163,8 +163,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Arithmetic in the field that a square root generates. Random numbers replace rounded decimals and named
-    roots."""
+    """Evaluation of formulas in the field that a square root generates. The rounded decimals and named roots
+    in the formulas are replaced by random numbers."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd
@@ -185,8 +185,8 @@ class _Scalars:
 
 
 def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
-    """Yield every constant in the formulas of a tableau file, and every coefficient of a minimal polynomial
-    in the file.
+    """Yield every constant in the formulas of a tableau file. For each named root in the file, yield the
+    coefficients of its minimal polynomial.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'

@@ -16,7 +16,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Return True if ``facts`` about a tableau imply that the tableau has at least this order in ``family``.
+    """Return True if ``facts`` about a tableau imply that its order in ``family`` is at least ``order``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
@@ -28,7 +28,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the highest order in ``family`` that ``facts`` about a tableau imply, or 0.
+    """Return the largest lower bound of the order of a tableau in ``family`` that ``facts`` imply. Return 0
+    if they imply no bound.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -38,7 +39,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return the lower bounds of the order that ``facts`` imply, as a map from labels of families to orders.
+    """Return a map from labels of families to orders. If ``facts`` are true for a method, its order in each
+    of these families is at least the order in the map.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -57,7 +59,8 @@ def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) ->
     """Return the exact order in ``family`` if theorems determine it, else None.
 
     ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
-    ``family`` implies order n in another family, then the exact order in the other family is an upper bound.
+    ``family`` implies order n in another family, then the exact order in the other family is an upper bound
+    of the order in ``family``.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

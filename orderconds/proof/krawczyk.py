@@ -33,7 +33,8 @@ class NotProved(Exception):
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
     """Return balls that enclose the only zero of ``system`` in ``box``. The balls are refined in arithmetic
-    with ``bits`` bits, until an iteration no longer halves any radius.
+    with ``bits`` bits. At most :data:`MAX_SWEEPS` iterations are made. The refinement ends earlier if an
+    iteration does not reduce any radius to less than half.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 
@@ -75,8 +76,8 @@ def _image(system: System, box: Sequence[arb]) -> list[arb]:
 
 
 def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
-    """Return the values and gradients of the equations at ``point``. If ``point`` is a box of balls, the
-    results enclose all values and gradients over the box.
+    """Return the values and gradients of the equations at ``point``. If the entries of ``point`` are
+    balls with positive radii, the results enclose the values and gradients at all points in these balls.
 
     >>> (square,) = jets(lambda x, ring: [x[0] * x[0]], [arb(3)])
     >>> square.value == 9, [x == 6 for x in square.gradient]

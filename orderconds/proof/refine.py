@@ -1,7 +1,8 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
-If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects the
-decimals that the equations determine best. The remaining decimals are pinned: their digits do not change.
+If there are more decimals than equations, the method computes the decimals that the equations determine best.
+They are selected by Gaussian elimination with complete pivoting, applied to the Jacobian of the equations.
+The remaining decimals are pinned: their digits do not change.
 """
 
 from __future__ import annotations
@@ -44,11 +45,13 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places.
+    """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
+    is the text of the file.
 
-    In the new file, the list ``pins`` contains the names of the decimals that are exact numbers and do not
-    change. The table ``[proof.printed]`` contains the original digits. Raises
-    :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the decimals.
+    The result contains a new file. In this file, the list ``pins`` contains the names of the decimals that
+    did not change; they are taken as exact numbers. The table ``[proof.printed]`` contains the original
+    digits. Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
+    decimals.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
@@ -83,8 +86,9 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the indices of the unknowns that the equations determine best, in ascending order.
 
-    Gaussian elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of
-    ``jacobian`` contains the derivatives of one equation, and is first divided by its largest entry.
+    Gaussian elimination with complete pivoting, applied to ``jacobian``, selects these unknowns. Each row of
+    ``jacobian`` contains the derivatives of one equation. Before the elimination, each row is divided by its
+    largest entry.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the rows are
     then almost linearly dependent.
@@ -134,7 +138,7 @@ def _newton(
 
 
 def decimal_places(x: arb, digits: int) -> str:
-    """Return a positive number as a decimal with ``digits`` places.
+    """Return a positive number as a decimal with ``digits`` digits after the point.
 
     >>> decimal_places(arb(2.5), 3)
     '2.500'
@@ -149,8 +153,9 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return ``text`` with the new digits. In the result, the list ``pins`` of the table ``[proof]`` contains
-    the names in ``pinned``, and the table ``[proof.printed]`` contains the original digits."""
+    """Return the tableau file ``text`` with the new digits in ``decimals``. In the result, the list ``pins``
+    of the table ``[proof]`` contains the names in ``pinned``, and the table ``[proof.printed]`` contains the
+    original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:

@@ -1,5 +1,5 @@
-"""The independent conditions of a sub-family of methods. The reduction ``spelling`` in the table ``[proof]``
-of a tableau file uses only these conditions.
+"""The independent conditions of a sub-family of methods. If the table ``[proof]`` of a tableau file contains
+``reduction = "spelling"``, the proof solves only these conditions.
 
 Formulas in the file, such as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family. In the sub-family,
 fewer conditions are independent. A condition is omitted if its value is a polynomial in the values of
@@ -24,7 +24,8 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to ``order`` for the methods of the sub-family.
+    """Return conditions that imply all conditions up to ``order`` for the sub-family of methods that
+    ``symbolic`` describes.
 
     The function ``read(method, ring)`` converts a method with coefficients in ``ring`` to the format of the
     family. By default the method is not converted.
@@ -56,8 +57,8 @@ def independent_conditions(
 
 
 def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
-    """Return one tuple of conditions for each order. For every method of the family, these conditions imply
-    all conditions up to ``order``.
+    """Return one tuple of conditions for each order. For every method of the family, the conditions in all
+    tuples together imply all conditions up to ``order``.
 
     >>> from orderconds import families
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]

@@ -65,10 +65,12 @@ class Balls:
             if x.value >= 0:
                 return Ball(x.value.root(index), self.bits)
             if index % 2 == 0:
-                raise ValueError("an even root of a number that is not proved to be nonnegative")
+                raise ValueError(
+                    "cannot compute an even root of a number that is not proved to be nonnegative"
+                )
             if x.value < 0:
                 return Ball(-((-x.value).root(index)), self.bits)
-        raise ValueError("a root of a number whose sign is not proved")
+        raise ValueError("cannot compute a root of a number whose sign is not proved")
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Ball:
         """Return the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
@@ -147,8 +149,8 @@ class Balls:
 
 
 class Enclosures:
-    """The ring of real balls whose elements are objects of python-flint, without a wrapper. The caller sets
-    the working precision.
+    """The ring of real balls. Its elements are balls of python-flint without a wrapper. The caller sets the
+    working precision.
 
     In a block ``with precision(bits)`` each operation returns the same ball as in :class:`Balls`, in less
     time. Division by a ball that contains zero raises no error, but returns a ball that is not finite.
@@ -196,8 +198,8 @@ def _magnitude(x: arb) -> int:
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the largest d with 10^-d >= 2 radius. A midpoint rounded to d places has an error of at most one
-    unit in the last place."""
+    """Return the largest d with 10^-d >= 2 ``radius``. If the midpoint of the ball is rounded to d places, it
+    differs from the enclosed number by at most one unit in the last place."""
     # ``str`` is applied to integers of flint, because ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:

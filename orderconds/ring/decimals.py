@@ -70,7 +70,8 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return the number d.ddd... times 10^exponent as text. ``figures`` contains the digits ``dddd...``."""
+    """Return a decimal number as text. ``figures`` contains its digits without the point. ``exponent`` is
+    the power of ten of the first digit."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

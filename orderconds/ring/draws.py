@@ -34,8 +34,8 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits. The primes are 3 modulo 4, and they divide no non-zero
-        number in ``avoided``.
+        """Yield different primes of ``bits`` bits. Each prime is 3 modulo 4. Primes that divide a
+        non-zero number in ``avoided`` are omitted.
 
         If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.
 

@@ -1,5 +1,5 @@
-"""Maps from one ring to another: from Q to every ring, from number fields to balls, and from a ring to its
-power series."""
+"""Maps from one ring to another: from Q to every ring, from number fields to balls and to larger number
+fields, and from a ring to the ring of power series over it."""
 
 from __future__ import annotations
 

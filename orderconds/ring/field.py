@@ -56,8 +56,8 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q[x]/(modulus). The element x represents the real root of ``modulus`` that ``enclosure``
-    encloses.
+    """The real field Q[x]/(modulus). The element x represents one real root of ``modulus``. The function
+    ``enclosure(bits)`` returns a ball around this root.
 
     - ``generators``: the adjoined roots.
     - ``images``: the adjoined roots as polynomials in x.
@@ -92,7 +92,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """A triple: the name of the field, the irreducible polynomial and the named roots. Two fields are
+        """A triple: the name of the field, the polynomial ``modulus`` and the named roots. Two fields are
         equal if and only if their triples are equal."""
         return self.name, str(self.modulus), self.named_roots
 
@@ -152,7 +152,8 @@ class NumberField:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """The generators that have a name, as triples (name, minimal polynomial, isolating decimal)."""
+        """The generators that have a name, as triples (name, minimal polynomial, decimal). The decimal
+        is closer to this root than to all other real roots of the polynomial."""
         return tuple(
             (g.symbol, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
             for g in self.generators
@@ -161,7 +162,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q: products of powers of the generators, as tuples of exponents."""
+        """A basis of the field over Q. Each basis element is a product of powers of the generators and is
+        given by the tuple of the exponents."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -182,7 +184,8 @@ class NumberField:
         return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
     def text(self, x: Algebraic) -> str:
-        """Return x as text in terms of the generators, in the grammar of tableau files.
+        """Return x as text in the grammar of tableau files. The text is a polynomial in the
+        generators of the field.
 
         >>> from orderconds.ring.tower import Tower
         >>> tower = Tower()

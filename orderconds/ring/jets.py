@@ -58,7 +58,10 @@ class Jets:
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
-            raise ValueError("a root of a number whose sign is not proved")
+            raise ValueError(
+                "cannot compute a root of a number that is not proved to be positive; "
+                "if the index is odd, the number may also be negative"
+            )
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 

@@ -42,7 +42,8 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times a product of powers of the variables, with the given ``exponents`` >= 0."""
+        """Return ``scale`` times the product of powers of the variables with the given ``exponents``. No
+        exponent is negative."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
@@ -66,7 +67,7 @@ class LaurentPolynomials:
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Return x as text, with exact rational coefficients."""
+        """Return the same text as :meth:`text`, with exact coefficients. ``digits`` is ignored."""
         return self.text(x)
 
     def _render(self, exponents: Exponents, c: fmpq) -> str:

@@ -11,8 +11,8 @@ rational. Then the order conditions are computed over Q. Arithmetic over Q is fa
 field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. For a collocation method, the map A takes a polynomial p to ``int_0^z p`` modulo M. For other
-methods, corrections are added (:class:`NodalAlgebra`).
+number field. For a collocation method, the linear map of the matrix A replaces a polynomial p(z) by its
+integral ``int_0^z p(t) dt`` modulo M. For other methods, corrections are added (:class:`NodalAlgebra`).
 """
 
 from __future__ import annotations
@@ -34,15 +34,16 @@ Matrix = Sequence[Sequence[Element]]
 
 
 class NodalAlgebra:
-    """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from
-    Q[z]/M to itself. The weights are a linear map to Q.
+    """The algebra Q[z]/M for the nodes c_i of a method. A polynomial p represents the vector of the values
+    p(c_i). Multiplication by a matrix of the method is a linear map from Q[z]/M to itself. The scalar product
+    with the weights is a linear map from Q[z]/M to Q.
 
-    - ``corrections[kind]``: pairs (k, d) with d = A z^k - int_0^z t^k dt, where A is the matrix with index
-      ``kind``. Pairs with d = 0 are omitted.
+    - ``corrections[kind]``: pairs (k, d) with d = A z^k - int_0^z t^k dt, where A is the linear map of the
+      matrix with index ``kind``. Pairs with d = 0 are omitted.
     - ``moments``: pairs (k, d) with d = sum_i b_i c_i^k - 1/(k + 1), with the weights b_i and the nodes c_i.
       Pairs with d = 0 are omitted.
 
-    A vector is represented by a polynomial of type ``fmpq_poly``. The degree is below the number of stages.
+    The polynomials have the type ``fmpq_poly``. Their degree is below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -89,8 +90,9 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of the maps A - 1 b^T and A in the basis 1, z, z^2, ... of the algebra. Here A
-        is the first matrix, and 1 is the vector of ones.
+        """Return the matrices of the linear maps A - e b^T and A in the basis 1, z, z^2, ... of the algebra.
+
+        Here A is the first matrix of the method, b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -105,7 +107,8 @@ class NodalAlgebra:
 
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
-    """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
+    """Return the :class:`NodalAlgebra` of a method. The nodes are c_i = sum_j a_ij, where the a_ij are the
+    entries of the first matrix.
 
     The result is None in three cases: ``ring`` is Q or is not a number field, two nodes are equal, or a
     coefficient in the algebra is not rational (see the module docstring).

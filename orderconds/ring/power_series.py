@@ -75,7 +75,7 @@ class PowerSeries:
         return tuple(self.base.key(c) for c in x.coefficients)
 
     def approximate(self, x: Series, digits: int = 20) -> str:
-        """Return x as text with decimal coefficients."""
+        """Return the list of the coefficients of x as text, each coefficient as a decimal."""
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
@@ -107,7 +107,7 @@ class Series:
 
     def _same(self, other: Series) -> tuple[Element, ...]:
         if other.ring != self.ring:
-            raise TypeError(f"series of different rings: {self.ring} and {other.ring}")
+            raise TypeError(f"cannot combine series of different rings: {self.ring} and {other.ring}")
         return other.coefficients
 
     def __add__(self, other: Element) -> Series:
@@ -149,8 +149,8 @@ class Series:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Series:
-        """Return 1/x for a series x = sum_k x_k h^k with invertible x_0. The coefficients b_n of 1/x satisfy
-        the recurrence b_n = -b_0 sum_{k>=1} x_k b_{n-k}."""
+        """Return 1/x for a series x = sum_k x_k h^k with invertible x_0. The coefficients b_n of 1/x are
+        b_0 = 1/x_0 and, for n > 0, b_n = -b_0 sum_{k=1}^n x_k b_{n-k}."""
         unit = self.coefficients[0]
         if self.ring.base.is_zero(unit) is True:
             raise ZeroDivisionError("division by a power series whose constant term is zero")

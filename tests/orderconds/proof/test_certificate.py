@@ -102,7 +102,7 @@ REFUSED: dict[str, tuple[str, str]] = {
             ZEROS,
             'conditions = "rk"\norder = 3\nreduction = "simplifying"\nassumptions = { B = 3, C = 1 }',
         ),
-        "the assumptions imply order 2, but [proof] states order = 3",
+        "the simplifying assumptions imply only order 2, but [proof] states order = 3",
     ),
 }
 
