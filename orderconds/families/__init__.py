@@ -1,5 +1,5 @@
-"""Families of integration methods. A family, such as ``rk`` or ``rkmk(1)``, determines which method a tableau
-defines. It provides the order conditions of the method.
+"""Families of integration methods. A family, such as ``rk`` or ``rkmk(1)``, turns a tableau into an
+integration method and provides the order conditions of this method.
 
 Each family has its own module, which is imported when the family is first used. The function :func:`register`
 adds new families. The function :func:`get` returns a family:

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 class ActionFamily(Family):
-    """A family with one condition for each action tree t whose value is in the Lie algebra.
+    """A family with one condition for each g-valued action tree t, where g is the Lie algebra.
 
     The left-hand side of the condition is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient
     of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
@@ -56,10 +56,10 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods of the family.
+        """Return one action series for random methods of the family.
 
-        An element of ``ring`` contains one value for each method. The methods have enough stages to
-        distinguish the independent conditions up to ``order``.
+        Each coefficient of the series is an element of ``ring``, which contains one value for each method.
+        The number of stages is large enough to show which conditions up to ``order`` are independent.
         """
 
     @abstractmethod
@@ -67,21 +67,25 @@ class ActionFamily(Family):
         """Return the object that constructs the index sums of the conditions of this family."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return a set of independent conditions of the given order, preferably of simple trees."""
+        """Return independent conditions of the given order. Conditions that are easy to read are
+        preferred."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of the given order. The simplest trees come first.
+        """Return the conditions of all trees of the given order. Conditions that are easy to read come first.
 
-        A dependent condition contains its relation to independent conditions.
+        The attribute ``relation`` of a dependent condition is a polynomial in left-hand sides of independent
+        conditions.
         """
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Map each dependent tree of the given order to a polynomial in independent trees.
+        """Map each tree of the given order whose condition is dependent to a polynomial.
 
-        In the polynomial, a tree denotes the left-hand side of its condition.
+        The polynomial expresses the left-hand side of the dependent condition by left-hand sides of
+        independent conditions. A tree in the polynomial denotes the left-hand side of the condition of this
+        tree.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -98,9 +102,10 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the relations of the dependent conditions of the given order hold exactly over Q.
+        """Return True if the equations in :meth:`relations` hold exactly for one random method.
 
-        The relations are verified for one random method.
+        The coefficients of the random method are rational numbers. The equations must also hold for the exact
+        flow.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -110,13 +115,14 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order.
 
-        Trees that differ only in the choice of the root have equal conditions, so only the simplest of these
-        trees is used.
+        Trees that differ only in the choice of the root have equal conditions. Therefore only one of these
+        trees is used: the tree whose condition is easiest to read.
         """
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
-        """Yield the trees of :meth:`decisive_conditions`, each with a function that returns its condition."""
+        """Yield a pair (tree, function) for each of the :meth:`decisive_conditions`. The function returns the
+        condition of the tree."""
         for of_class in classes_in_turn(order):
             yield of_class[0], partial(self.condition, of_class[0])
 
@@ -153,11 +159,11 @@ class ActionFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
-        """Return the elementary Hamiltonian that belongs to a condition."""
+        """Return the elementary Hamiltonian of the tree of a condition, as text."""
         return hamiltonian(condition.key)
 
     def condition(self, tree: Velocity) -> OrderCondition:
-        """Return the order condition that belongs to a tree."""
+        """Return the order condition of a tree."""
         return OrderCondition(
             family=self.label(),
             order=tree.vertices,
@@ -174,7 +180,7 @@ def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
 
 
 def _text(polynomial: Polynomial) -> str:
-    """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Short terms come first."""
+    """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Short products come first."""
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")

@@ -1,10 +1,12 @@
 """The conditions of action trees as readable index sums.
 
 Let u be a word of k letters. Its coefficient in a product of exponentials is a sum over indices ``j_1 <= ...
-<= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient as several
-sums with strict inequalities, one for each division of u into runs. If all letters are equal, one term
-suffices: S^k/k!, where S is the index sum of one letter. The printed condition is multiplied by the number k!
-(:func:`multiplier`), as in ``sum_i b_i c_i^2 = 1/3``.
+<= j_k``, where j_n is the index of the exponential from which letter n comes. Each term is the product of the
+coefficients of the letters in the exponents, with a factor 1/r! for each run of r equal indices. This module
+writes the coefficient as several sums with strict inequalities, one for each division of u into runs. If all
+letters are equal, one term suffices: S^k/k!, where S is the sum of the letter's coefficients in all
+exponents. The printed condition is multiplied by the number k! (:func:`multiplier`), as in
+``sum_i b_i c_i^2 = 1/3``.
 """
 
 from __future__ import annotations
@@ -35,14 +37,15 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter may be a string instead: the index of a stage whose
-velocity is varied."""
+"""A word whose letters are action trees. One letter may be a string instead: the index of a stage. It marks
+the letter x that is added to the velocity of this stage (:meth:`ActionFormula.through`)."""
 
 
 def multiplier(tree: Velocity) -> int:
-    """Return the factor by which the condition of a tree is multiplied.
+    """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The factor removes the denominators that come from words of equal letters.
+    The formula of a word of k equal letters contains the denominator k!. The factor is the product of k! over
+    all g-valued subtrees (w, M) whose word w consists of k equal letters.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -60,8 +63,8 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """The index sums of action conditions. Subclasses define how the stages and the update depend on
-    velocities.
+    """Index sums for the conditions of action trees. Subclasses define how the stages and the update depend
+    on the velocities of the stages.
 
     The argument ``row`` of the functions in this class is the index of a stage, or None for the update.
 
@@ -73,9 +76,9 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the group element of stage ``row``, times a factor.
 
-        If the word consists of k equal letters, the result is multiplied by k!.
+        The factor is k! if the word consists of k equal letters, and one otherwise.
         """
 
     @abstractmethod
@@ -83,7 +86,8 @@ class ActionFormula(ABC):
         """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
         ``row`` is None.
 
-        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
+        other velocities are unchanged.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -118,8 +122,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for methods whose stages and update are products of exponentials. The argument ``place``
-    of the functions in this class is the index of an exponential.
+    """Index sums for methods whose stages and update are products of exponentials. If a function has an
+    argument ``place``, this argument is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -133,12 +137,12 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
+        """Return the coefficient of ``tree`` in the exponent with index ``place`` of stage ``row``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the group element of stage ``row``, times a factor.
 
-        If the word consists of k equal letters, the result is multiplied by k!.
+        The factor is k! if the word consists of k equal letters, and one otherwise.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -158,7 +162,7 @@ class ExponentialsFormula(ActionFormula):
         """
         if not word:
             return one()
-        # Divisions into short runs come first, so the first term has only runs of length one.
+        # Divisions of the word into many runs come first. In the first term, each run has one letter.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -181,8 +185,8 @@ class ExponentialsFormula(ActionFormula):
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
         """Return the contribution of one exponential to the coefficient of the word u x v.
 
-        Here u is ``before``, v is ``after``, and the letter x comes from the exponential with index
-        ``place``. The coefficient of x in the exponent of this exponential is set to one.
+        Here u is ``before``, v is ``after``, and the letter x comes from the exponential with index ``place``
+        in stage ``row``. In the exponent of this exponential, x has the coefficient one.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -196,8 +200,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each coefficient a_ij and b_j. The index of the
-    exponential is j.
+    """Index sums for methods with one exponential for each a_ij in stage i, and one for each b_j in the
+    update. The index of the exponential is j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -210,9 +214,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of a tree t in one exponent.
+        """Return the coefficient of the tree t = ``tree`` in the exponent with index j = ``place``.
 
-        The result is ``a_ij tau_t(j)`` for stage i, and ``b_j tau_t(j)`` for the update.
+        The result is ``a_ij tau_t(j)`` in stage i = ``row``, and ``b_j tau_t(j)`` in the update. Here
+        ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
         """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
@@ -220,15 +225,16 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
         ``row`` is None.
 
-        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
-        Only the exponential with index ``stage`` contains this velocity.
+        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
+        other velocities are unchanged. Only the exponential with index ``stage`` contains the velocity of
+        ``stage``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Index sums for products of exponentials. The exponents are ``sum_j alpha_iJj xi_j`` in the stages and
-    ``sum_j beta_Jj xi_j`` in the update, where xi_j is the velocity of stage j.
+    """Index sums for products of exponentials. The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage
+    i, and ``sum_j beta_Jj xi_j`` in the update. Here xi_j is the velocity of stage j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -241,9 +247,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of a tree t in one exponent.
+        """Return the coefficient of the tree t = ``tree`` in the exponent with index J = ``place``.
 
-        The result is ``sum_j alpha_iJj tau_t(j)`` for stage i, and ``sum_j beta_Jj tau_t(j)`` for the update.
+        The result is ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)`` in the
+        update. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
@@ -252,7 +259,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
         """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
         ``row`` is None.
 
-        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
+        other velocities are unchanged.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -268,7 +276,9 @@ class MuntheKaasFormula(ActionFormula):
     """Index sums for methods with one exponential exp(X_i) in stage i and exp(Y) in the update.
 
     The exponents are ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j`` and ``Y = sum_j b_j dexpinv^(r)(X_j) xi_j``.
-    Here xi_j is the velocity of stage j, and dexpinv^(r) is dexpinv truncated after the r-th power.
+    Here xi_j is the velocity of stage j. The operator dexpinv^(r)(X_j) acts on xi_j. It is the series of
+    dexpinv at X_j, truncated after the power r = ``cutoff`` of ad. If ``cutoff`` is None, the series is not
+    truncated.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -281,19 +291,21 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), where i is ``row``.
+        """Return the coefficient of a word in exp(X_i), times a factor. Here i is ``row``.
 
-        If the word consists of k equal letters, the result is multiplied by k!.
+        The class docstring defines X_i. The factor is k! if the word consists of k equal letters, and one
+        otherwise.
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i) with i = ``row``. If ``row`` is None, return
-        its coefficient in exp(Y).
+        """Return the coefficient of the word u x v in exp(X_i) with i = ``row``, or in exp(Y) if ``row`` is
+        None. The class docstring defines X_i and Y.
 
-        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
+        other velocities are unchanged.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -303,8 +315,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i^n with i = ``row``. If ``row`` is None, return its
-        coefficient in Y^n."""
+        """Return the coefficient of ``word`` in X_i^n with i = ``row``, or in Y^n if ``row`` is None. The
+        class docstring defines X_i and Y."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -328,11 +340,11 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i with i = ``row``. If ``row`` is None, return its
-        coefficient in Y.
+        """Return the coefficient of ``word`` in X_i with i = ``row``, or in Y if ``row`` is None.
 
-        The coefficient is a sum over the letters of the word. In each term, one letter is the argument of
-        dexpinv.
+        The class docstring defines X_i and Y. Each is a linear combination of the elements dexpinv^(r)(X_j)
+        xi_j. The coefficient is a sum over the letters of the word: one letter comes from xi_j, and all other
+        letters come from X_j.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -347,16 +359,16 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi that contain at most ``letters`` factors X.
+        """Return the terms of the truncated series dexpinv_X xi with at most ``letters`` factors X in a term.
 
-        A triple (q, m, n) represents the term q X^n xi X^m.
+        The triple (q, m, n) denotes the term q X^n xi X^m.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # In X^0 = 1, every non-empty word has the coefficient zero.
+            # X^0 = 1 contains only the empty word. X^m with m > 0 contains only non-empty words.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -366,10 +378,11 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for methods with one exponential exp(X_i) in stage i, where ``X_i = sum_j a_ij v_j``.
+    """Index sums for methods with one exponential exp(X_i) in stage i and exp(Y) in the update.
 
-    Here v_j solves dexp^(r)(X_j) v_j = xi_j, where xi_j is the velocity of stage j. The operator dexp^(r) is
-    dexp truncated after the r-th power.
+    The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
+    equation dexp^(r)(X_j) v_j = xi_j, where xi_j is the velocity of stage j. The operator dexp^(r) is dexp,
+    truncated after the power r = ``cutoff`` of ad.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

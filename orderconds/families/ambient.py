@@ -33,8 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file states the order in the family ``rk`` instead, because a method has the
-        same order in both families."""
+        """Return None. A tableau file states the order in the family ``rk`` only, because this order is also
+        the order in the family ``ambient``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

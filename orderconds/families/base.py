@@ -1,7 +1,8 @@
 """The base class of families, with every attribute and method that the rest of the program uses.
 
-A family defines the series of a tableau. Its conditions compare this series with the series of the exact
-flow. Facts about a family are attributes and methods of its class.
+A family determines which integration method a tableau defines. The order conditions of the family compare the
+series of this method with the series of the exact flow. Facts about a family are attributes and methods of
+its class.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 Key = Hashable
-"""The key of a condition: a tree, a forest or a word in the encoding of the family."""
+"""The key of a condition: its tree, forest or word. The type of the key depends on the family."""
 
 Kind = TypeVar("Kind")
 
@@ -65,7 +66,7 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if conditions can be evaluated with rational numbers for some methods with irrational coefficients
+    """True if the family can use rational arithmetic for some methods with irrational coefficients
     (:mod:`orderconds.ring.nodal`)."""
     trees: ClassVar[str | None] = None
     """The kind of trees to which conditions belong (:mod:`orderconds.explain.kinds`); None for words."""
@@ -84,8 +85,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps other families to theorems. Each theorem states that the order of a method in the other family is
-    at least its order in this family.
+    """Maps the name of another family F to a reason. It explains why the order of a method in F is at least
+    its order in this family.
     """
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group; None if there is no such family."""
@@ -94,14 +95,15 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families in which every low-storage scheme (2N) has the same order as in this family."""
+    """The names of all families F with this theorem: every low-storage scheme (2N) has the same order in F
+    and in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. Two rows of weights can then use the same stages, and
-    the difference of the two results estimates the error.
+    """True if the stages do not depend on the weights. The weights b and a second set of weights can then
+    use the same stages. The difference of the two results estimates the error.
     """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
@@ -127,10 +129,11 @@ class Family(ABC):
     the family.
     """
     symplectic: ClassVar[bool] = False
-    """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j."""
+    """True if a search considers only symplectic tableaux. Their coefficients satisfy b_i a_ij + b_j a_ji =
+    b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three make three abscissae of each stage equal: c_i of the position,
-    chat_i of the forces and m_i of the transport (:mod:`orderconds.solve.abscissae`).
+    """True if the conditions of order three imply c_i = chat_i = m_i for each stage i with positive weights.
+    The module :mod:`orderconds.solve.abscissae` defines these three abscissae.
     """
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
@@ -141,9 +144,10 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of the given order.
+        """Return sufficient conditions of the given order.
 
-        In most families these conditions are independent; see :meth:`essential_conditions`.
+        Together with the conditions of lower order, they imply :meth:`all_conditions` of the given order. In
+        most families, the returned conditions are independent (:meth:`essential_conditions`).
         """
 
     @abstractmethod
@@ -191,7 +195,8 @@ class Family(ABC):
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition."""
+        """Yield a pair (key, function) for each of the :meth:`decisive_conditions`. The function returns the
+        condition with this key."""
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
@@ -216,7 +221,7 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            # The precision is set once, because setting the precision in each operation is slow.
+            # The precision is set once for all operations, because setting it in each operation is slow.
             with precision(ring.bits):
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
@@ -231,9 +236,9 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return residuals of the given order whose 2-norm measures the error of the method.
+        """Return residuals of conditions of the given order. By default, these are the :meth:`conditions`.
 
-        By default, return the residuals of :meth:`conditions`.
+        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -261,8 +266,8 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state the order of the method in this family.
-        Otherwise return None."""
+        """Return this family if the file of ``tableau`` should contain an order for this family. Otherwise
+        return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -272,10 +277,10 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``, in which a tableau file
-        should state an order.
+        """Return the variants of this family for which a tableau file should contain an order, such as
+        ``rkmk(0)`` and ``rkmk(1)``.
 
-        The cheapest variant comes first.
+        The variant with the cheapest step comes first.
         """
         return (self,)
 
@@ -315,7 +320,8 @@ class Family(ABC):
         raise InputError(
             f"the number of stages does not determine the coefficients of family {self.label()}",
             where="stages",
-            expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
+            expected="a family with a fixed set of coefficients for each number of stages, such as rk or "
+            "splitting",
             hint="omit the number of stages",
         )
 
@@ -333,7 +339,7 @@ class Family(ABC):
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if a step of the method in this family is proved to be symmetric."""
+        """Return True if ``method``, as a method of this family, is proved to be symmetric."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
@@ -345,21 +351,22 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order that every method of the family violates.
+        """Return a condition of the given order that no method of the family satisfies.
 
         Return None if no such condition is known.
         """
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change.
+        """Return an object that describes which conditions the truncation of dexpinv leaves unchanged.
 
-        Return None if no theorem describes them. This is the default.
+        Return None if no theorem describes these conditions. By default, return None.
         """
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method: theorems that make some conditions superfluous.
+        """Return the reductions that apply to a method. A reduction is a theorem that makes some conditions
+        superfluous.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -377,16 +384,16 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions that suffice if ``method`` is symmetric.
+        """Return a family with fewer conditions. They determine the order of ``method`` if it is symmetric.
 
         Return None if no such family is known.
         """
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return lower bounds of orders as pairs (family, order).
+        """Return lower bounds of the order of a method in some families, as pairs (family, bound).
 
-        The bounds hold for symmetric methods that have the given order in this family.
+        The bounds hold for every symmetric method that has the order ``order`` in this family.
         """
         return ((self.label(), order),)
 

@@ -2,8 +2,8 @@
 
 The step is Y_1 = cay(Omega) Y_0, where cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i is h
-A(c_i h), with the nodes c_i. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
+Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i = h
+A(c_i h), and c_i are the nodes. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
 defines the quadratic group. In Omega, the coefficients of a word of length n and of its reverse differ by the
 factor (-1)^(n+1). There is therefore one condition for each pair (word, reverse word), and one for each
 palindrome of odd length (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput.
@@ -32,8 +32,9 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions, omega_{ij...} is
-    the coefficient in Omega of the product in which A_i acts first, then A_j, and so on.
+    """Cayley methods: a step is a Cayley transform cay(Omega) or a product of Cayley transforms. In printed
+    conditions, omega_{ij...} is a coefficient of Omega. It belongs to the product in which A_i acts first,
+    then A_j, and so on.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -66,7 +67,7 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word as a multiple of the coefficient of an independent word."""
+        """Express the coefficient of a word in Omega by the coefficient of a word in :meth:`independent`."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}

@@ -1,10 +1,11 @@
 """Commutator-free methods: each stage and the update are products of exponentials.
 
-Each exponent is a linear combination of the values k_j of the vector field at the stages. The update is exp(h
-sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts first. In stage i, the
-coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage may
-start from the value of an earlier stage, whose exponentials then act first. In printed conditions b_j = sum_J
-beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
+exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
+first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
+341). A stage may start from the value of an earlier stage instead of y0. In this case, the exponentials of
+the earlier stage act first. In printed conditions, b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i =
+sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ EXPONENTIAL_SYMBOLS = {
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is also accepted; then each exponential contains a
-    multiple of one k_j.
+    """Commutator-free methods. A Runge-Kutta tableau is also accepted and defines a Crouch-Grossman method,
+    in which each exponent is a multiple of one stage value k_j.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -89,9 +90,9 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials in the stages are proved to be symmetric.
+        """Return True if the method is proved to be symmetric.
 
-        The method is then symmetric, too.
+        The function verifies a sufficient condition (:mod:`orderconds.tableau.palindromes`).
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
@@ -101,9 +102,10 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return, for each stage and then for the update, the list of all exponentials that are applied to y0.
+    """Return one sequence of exponents for each stage, and a last sequence for the update.
 
-    Each exponential is a row that contains one coefficient for each stage.
+    A sequence contains the exponents of all exponentials that are applied to y0, in the order of application.
+    An exponent is represented by a tuple with one coefficient for each stage value k_j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
@@ -159,8 +161,8 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # Exponentials of multiples of one letter commute, so only the sum of the letter's coefficients
-        # matters.
+        # All letters are equal here. Exponentials of multiples of one letter commute, so the result
+        # depends only on the sum of the letter's coefficients in all exponents.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

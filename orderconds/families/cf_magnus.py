@@ -1,9 +1,9 @@
 """Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
 
-The step is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), where A_i = h A(c_i h) and c_i are the nodes.
-Each condition belongs to a word. Let A(t) = X_1 + t X_2 + ... Letter k of a word denotes X_k and has weight
-k. In the exact flow, the coefficient of a word is an iterated integral (Blanes and Moan, Appl. Numer. Math.
-56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i). Here A_i = h A(c_i h), and
+c_i are the nodes. Each condition belongs to a word. Let A(t) = X_1 + t X_2 + .... Letter k of a word denotes
+X_k and has weight k. In the exact flow, the coefficient of a word is an iterated integral (Blanes and Moan,
+Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations

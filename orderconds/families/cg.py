@@ -63,9 +63,9 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials in the stages are proved to be symmetric.
+        """Return True if the method is proved to be symmetric.
 
-        The method is then symmetric, too.
+        The function :func:`symmetric_crouch_grossman` verifies a sufficient condition.
         """
         return symmetric_crouch_grossman(method, ring)
 
@@ -95,8 +95,9 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
-    The function verifies a sufficient condition: the products of exponentials in the stages are symmetric.
-    Under this condition the variational method of the tableau is symmetric, too.
+    The function verifies a sufficient condition on the exponentials of the stages and of the update
+    (:mod:`orderconds.tableau.palindromes`). Under this condition, the variational Crouch-Grossman method of
+    the tableau is symmetric, too.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -111,13 +112,14 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The exponents are ``row(i)`` k_i, where k_i is the value of the vector field at stage i. ``row_sum`` is a
-    short formula for the sum of ``row(i)`` over i, such as c_i, or None if there is no such formula.
+    The exponent with index i is ``row(i)`` k_i, where k_i is the value of the vector field at stage i.
+    ``row_sum`` is a short formula for the sum of ``row(i)`` over i, such as c_i, or None if there is no such
+    formula.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # In this case all letters are the same tree t. Exponentials of multiples of t commute, so the
-        # coefficient of t^k is the k-th power of the coefficient of t, divided by k!.
+        # All letters are the same tree t here. Exponentials of multiples of t commute, so the
+        # coefficient of the word t^k is the k-th power of the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

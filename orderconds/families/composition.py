@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
 
-    The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...). If it is symmetric, then X_2, X_4, ... vanish.
+    The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...). If Phi_h is symmetric, then X_2, X_4, ... vanish.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -61,7 +61,7 @@ class CompositionFamily(WordFamily):
             "a composition of midpoint rules belongs to this family (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
         ),
         "symmetric_composition": "every symmetric composition is a composition",
-        "splitting": "composition with the adjoint is equivalent to splitting (McLachlan 1995)",
+        "splitting": "a composition of Phi and Phi* gives a splitting of the same order (McLachlan 1995)",
     }
     bounds_others = True
     unknowns = "composition"
@@ -81,9 +81,8 @@ class CompositionFamily(WordFamily):
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum over pairs
-        (alpha_i, beta_i).
-        """
+        """Return the left-hand side of the condition of a word: an index sum with the step sizes alpha_i and
+        beta_i."""
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -103,7 +102,7 @@ class CompositionFamily(WordFamily):
         return ProductOfExponentials(ring, len(both), letter)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the coefficients (alpha_i, beta_i) of a composition."""
+        """Return the unknowns of a search: the step sizes alpha_i and beta_i for i = 1, ..., ``stages``."""
         refuse_explicit(self.label(), explicit)
         names = tuple((x, (str(i),)) for x in ("alpha", "beta") for i in range(1, stages + 1))
         return StageForm(
@@ -119,11 +118,12 @@ class CompositionFamily(WordFamily):
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return the family of symmetric compositions for a composition of symmetric methods, else None."""
+        """Return the family ``symmetric_composition`` if ``method`` is a composition of symmetric methods.
+        Otherwise return None."""
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family of symmetric compositions. A search considers only palindromic
+        """Return the label ``symmetric_composition``, because ``orderconds solve`` considers only palindromic
         sequences of step sizes."""
         return "symmetric_composition"
 
@@ -157,9 +157,9 @@ The coefficient of the word in the series of the stage is the formula divided by
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The function ``block`` returns the coefficient of a part of the word in the series of one stage. ``kind``
-    is the letter of the summation indices: a lower-case letter for stages, an upper-case letter for
-    exponentials.
+    The function ``block`` computes the coefficient of a part of the word in the series of one stage
+    (:data:`BlockFormula`). The argument ``kind`` is the name of the summation indices: lower case for stages,
+    upper case for exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -185,8 +185,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return r! times the coefficient of a word of r letters in Phi_{alpha h} Phi*_{beta h}, and the number
-    r!."""
+    """Return the pair (r! x, r!), where x is the coefficient of a word of r letters in stage ``i``. Stage i
+    is Phi_{alpha_i h} Phi*_{beta_i h} (module docstring)."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

@@ -6,9 +6,9 @@ Bogfjellmo and Marthinsen, Section 3.4.1).
 
 Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
 method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
-O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Several words
-contribute to the coefficient of a tree. Truncation changes this coefficient only if one of the words has more
-than R + 1 letters.
+O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Words whose
+letters are smaller trees contribute to the coefficient of a tree. The truncation changes this coefficient
+only if one of these words has more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class DexpinvCut(Family):
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants with the values of ``cutoff`` in :data:`CLAIMED`."""
+        """Return one variant of the family for each value of ``cutoff`` in :data:`CLAIMED`."""
         return tuple(type(self)(cutoff) for cutoff in CLAIMED)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -67,11 +67,11 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, computed from the order p of the method in the family
-        :attr:`abelian`.
+        """Return a lower bound of the order.
 
-        The bound is min(p, R + 2), or p without truncation. R is ``cutoff`` + 1 if ``cutoff`` is even and at
-        least 2, and otherwise ``cutoff``.
+        Let p be the order of the method in the family that the attribute :attr:`abelian` names. Without
+        truncation, the bound is at least p. With truncation, it is at least min(p, R + 2). Here R is
+        ``cutoff`` + 1 for even ``cutoff`` >= 2, and ``cutoff`` for all other values.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -83,7 +83,7 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change.
+        """Return an object that describes which conditions the truncation of dexpinv leaves unchanged.
 
         Return None if ``method`` is not a Runge-Kutta tableau, or if :attr:`abelian` is None.
         """
@@ -93,8 +93,9 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n such that the truncation of dexpinv changes no coefficient of a word of length at
-    most n. Without truncation (``cutoff`` is None) the result is a very large number.
+    """Return the largest n such that the truncation of dexpinv does not change the contributions of words
+    with at most n letters. If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large
+    number.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

@@ -40,7 +40,8 @@ class DiscreteGradientFamily(Family):
     keeps_energy = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the condition of the given order on the quadrature rule of a method.
+        """Return the condition of the given order: sum_i b_i = 1 for order 1, or
+        sum_i b_i c_i = 1/2 for order 2.
 
         Raises :class:`~orderconds.errors.InputError` for orders above two.
         """

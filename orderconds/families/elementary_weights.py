@@ -28,7 +28,7 @@ kept_branches = lru_cache(maxsize=1 << 16)(branches)
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return the matrix that makes the pair (A, b), (ahat, b) symplectic (HLW VI.4).
+    """Return the matrix ahat such that the tableaux (A, b) and (ahat, b) are a symplectic pair (HLW VI.4).
 
     The entries of the matrix are ahat_ij = b_j - b_j a_ji/b_i.
 
@@ -41,7 +41,7 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return the elementary weight of a tree with two kinds of edges as an index sum.
+    r"""Return the elementary weight of a tree as an index sum. The tree has two kinds of edges.
 
     ``weights`` is the name of the weights in the formula, ``b`` or ``bhat``.
 
@@ -111,10 +111,11 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of the product of ``factors`` and tau(i), where i is the last index.
+    """Return the sum over ``indices`` of the product of ``factors`` and tau_t(i).
 
-    The number tau(i) is a product with one factor for each branch at the root of the tree. The factor is
-    sum_j a_ij tau_branch(j).
+    Here t is ``tree``, and i is the last index. The number tau_t(i) is the product of the sums
+    ``sum_j a_ij tau_u(j)`` over all branches u at the root. The function ``below`` returns the branches and
+    the kinds of their edges. For an edge of kind 1, ahat_ij replaces a_ij.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

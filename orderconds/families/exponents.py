@@ -36,8 +36,9 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return one function for each exponent of a method. The function maps a word to the coefficient of the
     word in the exponent.
 
-    The exponent that acts first comes first. The coefficient of a word in a bracket is a sum over all
-    divisions of the word into two parts. Each coefficient is computed only once.
+    The exponent that acts first comes first. For a bracket [x, y], the coefficient of a word is computed from
+    all divisions of the word into two parts: one part for x, the other for y. Each coefficient is computed
+    only once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

@@ -74,15 +74,15 @@ class FerFamily(MagnusFamily):
                 "the exponent that acts last contains commutators, or another exponent has terms without "
                 "commutators",
                 where=f"family {self.name}",
-                expected="no commutators in F_1, the exponent that acts last; only commutators elsewhere",
+                expected="no commutators in F_1, the exponent that acts last; only commutators in all others",
                 hint="use the family 'magnus'",
             )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the number with which the coefficient of a word in one step is compared.
+        """Return the right-hand side of the condition of a word.
 
-        The number is 1/k for the single letter k. For a longer word, it is the coefficient of the word in
-        log(exp(-F_1) Y), where Y is the exact flow.
+        The right-hand side is 1/k for the single letter k. For a longer word, it is the coefficient of the
+        word in log(exp(-F_1) Y). Here Y is the exact flow, and F_1 is the exponent that acts last.
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
@@ -95,10 +95,10 @@ class FerFamily(MagnusFamily):
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function that maps each word to a coefficient of one step.
+        """Return a function that maps each word to the left-hand side of its condition.
 
-        A single letter is mapped to its coefficient in F_1. A longer word is mapped to its coefficient in the
-        logarithm of the product of all factors except exp(F_1).
+        Let F_1 be the exponent that acts last. A single letter is mapped to its coefficient in F_1. A longer
+        word is mapped to its coefficient in the logarithm of the product of all factors except exp(F_1).
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

@@ -1,11 +1,11 @@
 """Magnus methods for Y' = A(t) Y: one exponential exp(Omega). The exponent Omega is a linear combination of
 the values A_i = h A(c_i h) and of their brackets.
 
-Written in products, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... Here c_i are the nodes. In
-printed conditions omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t
-X_2 + ..., and let letter k denote X_k. The conditions compare Omega with the Magnus expansion on every Lyndon
-word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of
-exponentials, Omega is the logarithm of the product.
+If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... Here c_i are the
+nodes. In printed conditions, omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts
+first. Let A(t) = X_1 + t X_2 + ..., and let letter k denote X_k. The conditions compare Omega with the Magnus
+expansion on every Lyndon word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section
+5). If a step is a product of several exponentials, Omega is the logarithm of this product.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Magnus methods exp(Omega), where Omega is a Lie element, and products of such exponentials.
+    """Magnus methods exp(Omega), and products of such exponentials. Omega is a linear combination of the
+    values A_i and of their brackets.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -61,8 +62,8 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is the exponential of its logarithm, so it is a Magnus method of the same "
-        "order",
+        "a product of exponentials is the exponential of its logarithm, so its order as a Magnus method is "
+        "the same",
     )
     transform: ClassVar[str] = "exp"
 
@@ -104,15 +105,15 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of the word k_1 k_2 ...
+        """Return the left-hand side of the condition of a word.
 
-        The left-hand side is the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j,
-        ... of nodes.
+        For a word with the letters k_1, k_2, ..., the left-hand side is the sum of
+        omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
         """
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of a word in a Lie element by the coefficients of Lyndon words."""
+        """Express the coefficient of a word in Omega by the coefficients of Lyndon words in Omega."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -144,8 +145,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     The result is a linear combination of Lyndon words. It is the same for all Lie elements.
 
     Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
-    linear part of this polynomial. In a Lie element, all products in the polynomial have the coefficient
-    zero.
+    linear part of this polynomial. All other terms are shuffle products of several words. In a Lie element,
+    the coefficient of such a product is zero.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -17,9 +17,9 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """A cache of ``compute(method, ring)`` for the two most recent pairs of method and ring.
+    """A cache of the results of ``compute(method, ring)``. It keeps the last two computed results.
 
-    Methods are compared by identity.
+    Methods and rings are compared by identity.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Composition

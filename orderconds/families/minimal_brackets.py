@@ -22,8 +22,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """A family that contains one method. The method is given by a program that computes exponents from stage
-    values and brackets.
+    """A family that contains one method. The method is given by a program. Each exponent in the program is a
+    linear combination of stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -63,6 +63,6 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: no theorem about dexpinv applies, because the arguments of exp in the program differ
-        from the arguments in RKMK."""
+        """Return None: the theorem on the truncation of dexpinv does not apply, because the exponents in the
+        program differ from the exponents of the RKMK method."""
         return None
