@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The largest estimated number of terms for which the expansion is computed. The computation then needs about
-500 MB of memory."""
+"""The largest estimated number of terms for which the expansion is computed. With this number of
+terms, the computation needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
 """The largest number of terms of an expansion. With this number of terms, the text of the conditions has
@@ -60,7 +60,7 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 
 
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
-    """Return an upper bound for the number of terms.
+    """Return an upper bound for the total number of terms of the expanded conditions.
 
     A tree with n vertices gives one term for each choice of n stage indices. In an explicit method, two
     neighbouring vertices have only stages * (stages - 1)/2 possible pairs of indices, instead of stages^2.
@@ -86,9 +86,9 @@ def polynomials(
     """Return a polynomial ring, its variables, and the left-hand sides of the conditions as elements of the
     ring.
 
-    If the formulas of the family divide by weights, the ring consists of Laurent polynomials. Raises
-    :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of the
-    family.
+    If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials. Raises
+    :class:`~orderconds.errors.InputError` if the number of stages does not determine which coefficients a
+    method of the family has.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

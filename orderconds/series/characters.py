@@ -40,11 +40,11 @@ class TreeAlgebra:
 
 
 ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
-"""B-series: canonical rooted trees. In the exact flow, a tree of density gamma has the coefficient 1/gamma
-(HLW III.1, Theorem 1.5)."""
+"""The algebra of canonical rooted trees, for B-series. In the exact flow, a tree of density gamma has the
+coefficient 1/gamma (HLW III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
-"""Lie-Butcher series: ordered forests, in which the first tree acts first."""
+"""The algebra of ordered forests, for Lie-Butcher series. The first tree of a forest acts first."""
 
 
 class Character:
@@ -115,8 +115,8 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over all admissible cuts. Each summand is the product of the coefficients of the
-        components in this step and the coefficient of the rest in ``other``.
+        """Return a sum over all admissible cuts. Each summand is a product: every component contributes its
+        coefficient in this step, and the rest contributes its coefficient in ``other``.
 
         If ``whole`` is false, the cut without components is omitted.
         """

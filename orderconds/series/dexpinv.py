@@ -23,8 +23,9 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of the Runge-Kutta-Munthe-Kaas method (RKMK) of a tableau (A, b) over ``ring``.
-    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
+    """The Lie-Butcher series of a Runge-Kutta-Munthe-Kaas method (RKMK). The method has the tableau (A, b),
+    whose entries are elements of ``ring``. The series dexpinv is truncated after the power ``cutoff``. If
+    ``cutoff`` is None, the series is not truncated.
 
     Implicit tableaux need no iteration, because the coefficient of a forest depends only on the coefficients
     of smaller forests.
@@ -39,8 +40,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # ``_rows`` contains the rows of A for the arguments of the stages, and the row b for the argument of
-        # the step.
+        # ``_rows[0]`` computes the stage arguments with the rows of A. ``_rows[1]`` computes the argument of
+        # the step with the row b.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -66,8 +67,9 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the exponentials of all stages. If ``step`` is 1, the result
-        contains only the coefficient in the exponential of the step."""
+        """If ``step`` is 0, return the coefficients of ``word`` in exp(u_i) for all stages i. If ``step`` is
+        1, return a list with one entry: the coefficient of ``word`` in exp(u). Here u_i is the argument of
+        stage i, and u is the argument of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -80,8 +82,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in the n-th powers of the arguments of all stages. If ``step`` is
-        1, the result contains only the coefficient in the n-th power of the argument of the step."""
+        """If ``step`` is 0, return the coefficients of ``word`` in u_i^n for all stages i. If ``step`` is 1,
+        return a list with one entry: the coefficient of ``word`` in u^n. Here u_i is the argument of stage i,
+        and u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -115,8 +118,8 @@ class DexpinvSeries:
         has the argument u_j and the stage value k_j. The series dexpinv is truncated after the power r.
 
         The word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
-        The letters of v and w come from u_j, and k_j counts as one letter. Return None if all coefficients
-        are zero.
+        The powers of u_j contribute the words v and w. The stage value k_j is treated as one letter. Return
+        None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -131,10 +134,11 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w. The word v has
-        ``before`` letters, and w has ``behind`` letters.
+        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w, as triples (q, m, n).
+        Here q is a number, v has ``before`` letters, and w has ``behind`` letters.
 
-        The rightmost factor u^m acts first, so its letters precede the letter x.
+        In the product, the rightmost factor acts first. In the word, the first letter acts first. Hence u^m
+        contributes the word v, and u^n contributes the word w.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:

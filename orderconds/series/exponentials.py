@@ -52,8 +52,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The last r letters of the word come from exponential J, and all other letters from earlier
-                # exponentials.
+                # The coefficient is a sum over r. In term r, exp(X_J) contributes the last r letters of the
+                # word. Earlier exponentials contribute all other letters.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:
@@ -66,7 +66,7 @@ class ProductOfExponentials:
         return values
 
     def _letters(self, k: int) -> list[Element | None]:
-        """Return the coefficients of the letter k in all exponents X_J."""
+        """Return the coefficient of the letter k in each exponent X_J, for J = 0, ..., ``count`` - 1."""
         coefficients = self._known.get(k)
         if coefficients is None:
             coefficients = self._known[k] = [self._letter(J, k) for J in range(self._count)]

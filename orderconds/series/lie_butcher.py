@@ -37,10 +37,11 @@ class ForestSeries(Protocol):
 class ExponentialsSeries:
     """The series of a commutator-free method. The exponents are linear combinations of stage values.
 
-    ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
-    exponentials of the step. Each exponential is given by its exponent: pairs (index of a stage, coefficient
-    of the stage value). The first exponential acts first. The method may be implicit. If several products
-    begin with the same exponentials, their common partial product is computed once.
+    The product of the exponentials in ``stages[i]`` maps y0 to the point at which stage i evaluates the
+    vector field. The product of the exponentials in ``update`` maps y0 to the result of the step. Each
+    exponential is given by its exponent: pairs (index of a stage, coefficient of the stage value). The first
+    exponential acts first. The method may be implicit. If several products begin with the same exponentials,
+    their common partial product is computed once.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -93,8 +94,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in a product of exponentials. The product leads from y0 to stage
-        i. Stages are counted from 0."""
+        """Return the coefficient of a forest in the product of the exponentials of stage i. This product maps
+        y0 to the point at which stage i evaluates the vector field. Stages are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -125,8 +126,9 @@ class ExponentialsSeries:
         ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # In term r, the last exponential of the partial product contributes the last r letters of the word.
-        # Earlier exponentials contribute all other letters.
+        # The coefficient in a partial product is a sum over r. In term r, the last exponential of the partial
+        # product contributes the last r letters of the word. Earlier exponentials contribute all other
+        # letters.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -164,9 +166,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The coefficient of a word is the iterated
-    integral of the values of its letters. The first letter belongs to the earliest time. Each letter is a
-    tree. The value of a tree at time s is the coefficient, in g(s), of the word of its branches.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. For a tree t_l, let c_l(s) be the coefficient,
+    in g(s), of the forest of its branches. Then the coefficient of the forest t_1 ... t_n in g(1) is the
+    integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -178,12 +180,12 @@ def exact_value(forest: Forest) -> Fraction:
 
 
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
-    """Return the coefficient a(w) of every ordered forest w with ``order`` vertices in a series.
+    """Return a map from each ordered forest w with ``order`` vertices to its coefficient a(w) in a series.
 
-    For matrices, these coefficients determine the step y1 = g1 y0 by g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
-    The sum is over all forests w = t_1 ... t_k, and |w| is the number of vertices. The elements F(t) of the
-    Lie algebra are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is
-    the derivative along the fixed element F(t_l).
+    For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
+    forests w = t_1 ... t_k, where |w| is the number of vertices. The elements F(t) of the Lie algebra are
+    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the derivative
+    along the fixed element F(t_l).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

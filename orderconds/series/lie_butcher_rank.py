@@ -4,8 +4,8 @@ independent.
 
 A condition is superfluous if simpler conditions imply it. The left-hand side of a superfluous condition is a
 linear combination of simpler left-hand sides and of products of left-hand sides of lower order. The
-right-hand side is the corresponding combination of right-hand sides. The right-hand sides are the values of
-the exact flow. In the matrix, the exact flow is therefore treated like a random method.
+right-hand sides of the conditions satisfy the same relation. They are the values of the exact flow. In the
+matrix, the exact flow is therefore treated like a random method.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # For the highest order, the rank is at most the number of ordered forests of this order. The number of
-    # samples must be greater than the rank.
+    # There is one matrix for each order, with one row for each sample. Its rank is at most the number of
+    # ordered forests of this order. The number of samples must exceed the rank for the highest order.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -56,8 +56,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a group as a map from ordered forests to coefficients. The letters of
-    the word are K (kick) and D (drift).
+    """Return the differential operator that a word denotes on a group. The letters of the word are K (kick)
+    and D (drift). The operator is a map from ordered forests to coefficients.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -67,8 +67,9 @@ def on_group(word: str) -> dict[Forest, int]:
 
 
 def on_vector_space(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a vector space as a map from forests of rooted trees to coefficients.
-    The trees are canonical, and a forest contains them in descending order.
+    """Return the differential operator that a word denotes on a vector space. The letters of the word are K
+    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. The trees are
+    canonical, and a forest contains them in descending order.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -128,9 +129,10 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Express the coefficients of ordered forests in the series of two-register (2N) schemes by the values of
-    rooted forests. The result maps each ordered forest with ``order`` vertices to {rooted forest:
-    coefficient}.
+    """Return the relations between ordered and rooted forests for two-register (2N) schemes. In the series of
+    a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
+    The result maps each ordered forest with ``order`` vertices to its linear combination {rooted forest:
+    number}.
 
     The value of a rooted forest is the product of the elementary weights of the trees in the forest. The
     result is valid for every 2N scheme and for the exact flow. Raises ValueError if the coefficient of some
@@ -152,11 +154,14 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
     for (place, _), *rest in kernel(rows, len(rooted) + len(ordered)):
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
-                raise ValueError(f"an ordered forest of order {order} is not a combination of rooted forests")
+                raise ValueError(
+                    f"a coefficient of order {order} is not a linear combination of values of rooted forests"
+                )
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(
-            f"only {len(relations)} of {len(ordered)} ordered forests are combinations of rooted forests"
+            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of values of"
+            " rooted forests"
         )
     return {forest: relations[forest] for forest in ordered}
 
@@ -168,8 +173,9 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the operator of a word as a linear combination of products of derivatives. ``ordered`` is true
-    on a group, and false on a vector space."""
+    """Return the differential operator that a word in K and D denotes. It is a linear combination of products
+    of derivatives. ``ordered`` is true for the operator on a group, and false for the operator on a vector
+    space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -182,8 +188,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D to a product of derivatives of a function. The letter D denotes the derivative along
-    the register k. By the product rule, the result is a sum."""
+    """Differentiate a product of derivatives along the register k. The letter D of a word denotes this
+    derivative. By the product rule, the result is a sum."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -202,8 +208,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply ``act`` (:func:`_drift` or :func:`_kick`) to one vector field of the product at a time. Return
-    the sum of the results."""
+    """Return a sum with one term for each factor P of ``product`` that is not None. In this term, ``act(P)``
+    replaces the factor P. The function ``act`` is :func:`_drift` or :func:`_kick`."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -37,10 +37,10 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     """Return every free tree with alternating colours exactly once. The root is chosen such that the height
     is least.
 
-    In a tree with alternating colours, neighbours differ in colour. These trees belong to symplectic
-    partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). Each uncoloured
-    tree has two alternating colourings. The two colourings give the same tree if a symmetry of the uncoloured
-    tree exchanges the colours.
+    In a tree with alternating colours, neighbours differ in colour. These trees index the order conditions
+    of symplectic partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). Each
+    uncoloured tree has two alternating colourings. The two colourings give the same tree if a symmetry of the
+    uncoloured tree exchanges the colours.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -93,7 +93,8 @@ def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
 
 
 def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
-    """Return the tree with a new root of the given colour and the given subtrees, in canonical order.
+    """Return the tree with a new root of the given colour. The given subtrees become the branches of the
+    root, sorted in canonical order.
 
     >>> text(rooted(1, [bytes((0,)), bytes((1,))]))
     '(o.)'
@@ -102,7 +103,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield the tree with each of its vertices as root. The colours do not change.
+    """Yield one tree for each vertex: the given tree with this vertex as root. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']

@@ -59,8 +59,10 @@ def ordered_forest_count(vertices: int) -> int:
 
 
 def free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with n vertices (A000055) by Otter's formula: r(n) - 1/2 (sum_k r(k)
-    r(n - k) - r(n/2)). Here r(n) is the number of rooted trees with n vertices, and r(n/2) is zero for odd n.
+    """Return the number of free trees with n = ``vertices`` vertices (A000055).
+
+    Otter's formula for this number is r(n) - 1/2 (sum_{0<k<n} r(k) r(n - k) - r(n/2)). Here r(n) is the
+    number of rooted trees with n vertices, and r(n/2) is zero for odd n.
 
     >>> [free_tree_count(n) for n in range(1, 11)]
     [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]

@@ -43,7 +43,7 @@ def branches(tree: DirectedTree) -> tuple[Branch, ...]:
 
 
 def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
-    """Return the tree with a new root and the given branches, in canonical order.
+    """Return the tree with a new root and the given branches. The branches are sorted in canonical order.
 
     >>> text(joined([(1, bytes((0,))), (0, bytes((0,)))]))
     '[^..]'
@@ -89,8 +89,8 @@ def text(tree: DirectedTree) -> str:
 
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every rooted tree with directed edges exactly once. These trees belong to partitioned
-    Runge-Kutta methods with b = bhat.
+    """Return every rooted tree with directed edges exactly once. These trees index the order conditions
+    of partitioned Runge-Kutta methods whose two tableaux have equal weights b.
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
@@ -130,9 +130,9 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Return the tree, rooted at the vertex for which the order condition is simplest to read.
 
-    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 for one choice of the root. The root is
-    chosen such that min(n_0, n_1) is least. Among several such vertices, those that give the least height are
-    preferred, and then those with the least n_1.
+    For one choice of the root, let n_0 be the number of edges that point away from the root (kind 0). Let n_1
+    be the number of edges that point to the root (kind 1). The root is chosen such that min(n_0, n_1) is
+    least. Ties are broken by the least height, and then by the least n_1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -141,7 +141,8 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield the tree with each of its vertices as root. The edges keep their directions.
+    """Yield one tree for each vertex: the given tree with this vertex as root. The edges keep their
+    directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -167,7 +168,7 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the vertices whose choice as root gives the simplest rooted trees."""
+    """Return the preorder indices of the best roots by the criteria of :func:`representative`."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

@@ -53,7 +53,7 @@ def superfluous(tree: Tree) -> bool:
 
 def representative(tree: Tree) -> Tree:
     r"""Return the tree, rooted at a vertex for which the height is least. If there are several such vertices,
-    choose the greatest level sequence.
+    choose the vertex that gives the greatest level sequence.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'
@@ -75,8 +75,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a canonical tree with each of its vertices as root. With each tree, yield the moves of the root
-    from the old vertex to the new vertex.
+    r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. Here ``rooting`` is the tree with
+    this vertex as root. ``moves`` contains the moves of the root from the original root to this vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

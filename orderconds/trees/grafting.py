@@ -38,8 +38,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the trees that result if u is attached as a new branch to one vertex of v, for each vertex of
-    v. Equal results are counted. Both trees are unordered.
+    r"""Return the trees that result if u becomes a new branch of a vertex of v. Each vertex of v gives one
+    tree. The result maps each tree to the number of vertices that give it. Both u and v are unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -90,8 +90,8 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k divisions of a word of k trees into two subwords. A subword consists of arbitrary trees
-    of the word, in unchanged order.
+    r"""Return the 2^k divisions of a word of k trees into two subwords. Each tree of the word belongs
+    to exactly one of the two subwords. The trees of a subword keep their order.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

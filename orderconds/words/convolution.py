@@ -41,7 +41,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters. Here m is 1.
+    # powers[end] is the value of f^m on the first ``end`` letters. The first power is m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
     # tails[end] contains the non-zero values of f on the words word[start:end] with start >= 1. Most values

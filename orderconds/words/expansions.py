@@ -42,8 +42,9 @@ def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion. The expansion is the Lie element Omega with
     Y = exp(Omega), where Y is the solution of Y' = A(t) Y with Y(0) = I.
 
-    For example, the term of weight three contains -[X_1, X_2]/12. The first letter of a word acts first, so
-    [X_1, X_2] is the word 2 1 minus the word 1 2.
+    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first, so
+    [X_1, X_2] = X_1 X_2 - X_2 X_1 is the word (2, 1) minus the word (1, 2). For example, the term of weight
+    three contains -[X_1, X_2]/12.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -56,7 +57,8 @@ def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in Omega, where Y = cay(Omega) solves Y' = A(t) Y with Y(0) = I. The
     Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-    Omega satisfies Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+    Letter k of the word denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega satisfies Omega' = A -
+    [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -82,7 +84,8 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
-    The logarithm is F_2 + F_3 + ..., plus brackets of F_2, F_3, .... The brackets have weight ten or more.
+    The logarithm is the sum of F_2, F_3, ... and of brackets of these series. The brackets have weight ten
+    or more, because F_2 begins with weight 3 and F_3 with weight 7.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -168,7 +171,8 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # The head of a word acts first. In the product F x, the head therefore belongs to x.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The head of a word acts first. In the product
+        # F_n x, the factor x acts first, so x contributes the head, and F_n contributes the tail.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result

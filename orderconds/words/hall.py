@@ -116,8 +116,9 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends, because x < u
-            # < v.
+            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The inner brackets have lower
+            # weight. Since x < u < v, both factors of each outer bracket are greater than x. Only finitely
+            # many basis elements have the same weight or less, so the recursion ends.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -113,7 +113,7 @@ def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None)
     while rest:
         word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
-            raise ValueError(f"not a Lie element: its least word {word} is not a Lyndon word")
+            raise ValueError(f"not a Lie element: {word} remains after subtracting bracketed Lyndon words")
         coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return coordinates

@@ -159,8 +159,8 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coordinates of a series of the brackets ad_U^k X. The only Lyndon
-    words in such a series have the form U ... U X."""
+    """Return a function that computes the coordinates of a series sum_k c_k ad_U^k X, where U and X are
+    letters and c_k numbers. The only Lyndon words in this series have the form U ... U X."""
 
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)

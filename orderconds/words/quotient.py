@@ -1,9 +1,9 @@
 """Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
 The values of these functionals determine an element of the free algebra modulo the ideal. The functionals are
-therefore coordinates on the group-like elements of the quotient. Modulo products of functionals of lower
-weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras,
-Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+therefore coordinates on the group-like elements of the quotient. Identify functionals that differ by
+products of functionals of lower weight. The resulting classes form the dual of the Lie algebra of the
+quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each column of the matrix belongs to a word. Each column without a pivot gives one functional, and
-        # its word is the name of the functional. Pivots are chosen from the left. Lyndon words are placed at
-        # the right, so that they become names if possible.
+        # Each row of the matrix is an element of the ideal, and each column belongs to a word. Each column
+        # without a pivot gives one functional. The word of this column is the functional's name. Pivots are
+        # chosen from the left. Lyndon words are placed at the right, so that they become names if possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -85,8 +85,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v with exactly the letters in ``content``, for all generators g and all words u
-    and v."""
+    """Yield the products u g v of words u and v with a generator g. Each letter occurs in u g v as often as
+    in ``content``."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

@@ -18,7 +18,7 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import Word, shuffle
 
 Monomial = tuple[Word, ...]
-"""A shuffle product of Lyndon words, in decreasing order."""
+"""The factors of a shuffle product of Lyndon words. The factors are in non-increasing order."""
 
 
 @lru_cache(maxsize=1 << 14)
