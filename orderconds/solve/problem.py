@@ -61,8 +61,9 @@ class Problem:
         """Return the order conditions that are independent for the ansatz.
 
         A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
-        Theorem II.3.2). In a symmetric parametrisation, the conditions of the highest order are therefore
-        omitted if this order is even.
+        Theorem II.3.2). If p is even and a symmetric method has at least order p - 1, the method therefore
+        has at least order p. In a search for symmetric methods of even order p, the conditions of order p
+        are omitted.
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -88,17 +89,17 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method to which the conditions apply. If the ansatz is ``abelian``, return the
-        Runge-Kutta tableau to which a commutator-free ``method`` reduces on an abelian group. In all other
-        cases, return ``method``."""
+        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True, a
+        commutator-free ``method`` is replaced by the Runge-Kutta tableau to which it reduces on an abelian
+        group. All other methods are returned unchanged."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
 
     @cached_property
     def error(self) -> Tape:
-        """Return a program for the residuals of order p + 1, where p is the order of the search. The 2-norm
-        of these residuals is the principal error."""
+        """Return a program that evaluates the residuals of the order conditions of order p + 1, where p is
+        the order of the search. The 2-norm of these residuals is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
         if self.measured.label() == self.family.label():
@@ -107,8 +108,11 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program that evaluates all coefficients that are not constants. Further outputs of the
-        program are the weights b_i."""
+        """Return a program that evaluates all coefficients that are not constants, and then all weights b_i.
+
+        The weights of a commutator-free method are those of the Runge-Kutta tableau to which it reduces on
+        an abelian group. For compositions and splittings, the program evaluates no weights.
+        """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
         weights = _weights(self.ansatz.method(ring.inputs, ring), ring)
@@ -132,7 +136,7 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the amounts by which coefficients violate their bounds at many points, and the Jacobians of
+        """For each point, return the amounts by which coefficients violate their bounds, and the Jacobian of
         these amounts."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
@@ -149,15 +153,16 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return a vector for each of many points, and the Jacobians of these vectors. A vector contains the
-        residuals of the conditions, followed by the violations of the bounds (:meth:`bounds`)."""
+        """For each point, return the residuals of the conditions, followed by the violations of the bounds
+        (:meth:`bounds`). The second value contains the Jacobian for each point."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
-        """Return ``count`` random points near the centre of the ansatz. The default centre has equal weights,
-        and all other coefficients are zero."""
+        """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
+        None, the starting points are near a point with equal weights and zeros for all other
+        coefficients."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -169,8 +174,9 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem for a family ``label``, an order, a specification and a structure. The eight most
-    recent problems are cached, so that a repeated call returns the same object.
+    """Return the equations of a search for methods of the given order in the family ``label``. ``structure``
+    is the name of the parametrisation of the coefficients. The eight most recent problems are cached, so that
+    a repeated call returns the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -37,11 +37,11 @@ class SearchResult:
     """The result of a search. Its truth value is True if a method was found.
 
     - ``tableau``: the method, or None
-    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``, or ``none`` without a method
+    - ``certificate``: ``exact`` or ``ball``, the kind of proof of the order; ``none`` if no method was found
     - ``error_norm``: the principal error of the method
     - ``impossible``: a proof that no method exists, or None
     - ``best_residual``: the least residual norm of all random starts
-    - ``tried``: one line of text about each parametrisation (structure) that was tried
+    - ``tried``: one line of text about each parametrisation of the coefficients that was tried
     - ``command``: the command line that repeats the search
     """
 
@@ -55,7 +55,8 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Convert the outcome of a search. ``request`` contains the options of the search."""
+        """Convert the outcome of a search to a SearchResult. ``request`` contains the options of the
+        search."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),
@@ -116,7 +117,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs the trees up to order - 1.
+    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs the trees of these orders.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
@@ -148,7 +149,9 @@ def solve(
 def _function(report: Callable[[str], object]) -> Callable[[str], object]:
     if callable(report):
         return report
-    raise InputError(described(report), where="report", expected="a function of one text, such as print")
+    raise InputError(
+        described(report), where="report", expected="a function that takes one str, such as print"
+    )
 
 
 def _path(checkpoint: object) -> Path | None:

@@ -101,7 +101,8 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Run the random starts of the batch with this number, and return its solutions with the lowest scores.
+    """Search from the random starting points of batch ``number``. The returned batch contains the solutions
+    with the lowest scores, at most :data:`KEPT`. :class:`Batch` defines the score.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -115,8 +116,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Drop singular solutions if the batch contains regular solutions. If all solutions are singular, keep all
-    # of them with a penalty, because a proof with exact coefficients may still be possible.
+    # Drop singular solutions if the batch contains regular solutions. If all solutions are singular, keep
+    # them and add SINGULAR to their scores. A proof with exact coefficients may still be possible.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -128,8 +129,8 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution. The score is the principal error if the order is at most :data:`CHEAP`,
-    and the largest absolute value of a coefficient for higher orders."""
+    """Return the score of a solution. If the order of the search is at most :data:`CHEAP`, the score is the
+    principal error. Otherwise, the score is the largest absolute value of a coefficient."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -158,7 +159,7 @@ class Checkpoint:
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
                 expected="a checkpoint file that the user owns",
-                hint="delete this file, or name another file",
+                hint="delete this file, or choose another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise InputError(
@@ -171,7 +172,7 @@ class Checkpoint:
                 "the checkpoint of another search",
                 where=str(self.path),
                 expected="the same family, order, constraints and seed",
-                hint="delete this file, or name another file",
+                hint="delete this file, or choose another file",
             )
         self.batches = {batch.number: batch for batch in batches}
 

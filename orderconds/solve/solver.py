@@ -19,16 +19,17 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default numbers of random starts for each parametrisation: PLAIN without minimisation of the principal
-error, and MINIMISED with minimisation."""
+"""The default numbers of random starts for each parametrisation of the coefficients. MINIMISED is used if the
+search minimises the principal error. Otherwise, PLAIN is used."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
-    ``best`` is the least residual norm of all random starts. ``tried`` contains one line of text about each
-    parametrisation (structure) that was tried, and ``structure`` is the last parametrisation that was tried.
+    ``best`` is the least residual norm of all random starts. The search tries several parametrisations of the
+    coefficients. ``tried`` contains one line of text about each of them, and ``structure`` is the name of the
+    last one.
     """
 
     solution: Solution | None = None
@@ -101,8 +102,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the parametrisations (structures) that the specification allows. Raises InputError if no
-    parametrisation is allowed, or if the options contradict each other."""
+    """Return the names of the parametrisations of the coefficients that the specification allows. Raises
+    InputError if no parametrisation is allowed, or if the options contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -137,8 +138,8 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         seen.append(batch)
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
-        shown = f", least score {least:.4g}" if least is not None else ""
-        done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts"
+        shown = f", least score of a solution {least:.4g}" if least is not None else ""
+        done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts completed"
         report(f"{done}, least norm of residuals {outcome.best:.1e}{shown}")
         if order.minimised:
             continue
@@ -160,9 +161,9 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return a pair. The first value is the best solution whose order can be proved, or None. The second
-    value is the reason why the last failed proof failed. If no proof failed, it is ``refused``, the reason
-    from an earlier call. At most eight solutions are tried."""
+    """Return a pair. The first value is the best solution whose order can be proved, or None. At most
+    eight solutions are tried. The second value is the error message of the last failed proof. If no proof
+    failed in this call, the second value is the argument ``refused``, the message from earlier calls."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

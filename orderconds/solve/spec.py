@@ -14,9 +14,9 @@ class Spec:
     """The required properties of a method, which are options of ``orderconds solve``.
 
     - ``dirk``: whether the method is diagonally implicit
-    - ``fsal``: whether the last stage equals the update
+    - ``fsal``: whether the last stage equals the result of the step (first same as last)
     - ``fix``: linear equations between coefficients
-    - ``positive``: the names of coefficients that must be positive, where ``b`` denotes all weights
+    - ``positive``: the names of coefficients that must be positive; the name ``b`` denotes all weights
     - ``size``: a bound on the absolute values of all coefficients
     - ``exponentials``: the number of exponentials in the update of a commutator-free method
     - ``inner``: the number of exponentials in each stage of a commutator-free method
@@ -39,8 +39,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``. Methods of
-    ``family`` do not have these options.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which are
+    not available for ``family``.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """
@@ -49,5 +49,5 @@ def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
         if getattr(spec, option) != getattr(plain, option):
             written = option.replace("_", "-")
             raise InputError(
-                f"family {family} has no methods with --{written}", where="solve", expected=f"no --{written}"
+                f"--{written} is not available for family {family}", where="solve", expected=f"no --{written}"
             )

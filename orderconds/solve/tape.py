@@ -33,13 +33,14 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degree of each root, if ``kind`` is ROOT."""
+    """If ``kind`` is ROOT: the degree n of each n-th root. Other kinds do not use this array."""
 
 
 class Tape:
-    """The outputs of a program as a function of its inputs, in double precision.
+    """A recorded program that computes outputs from inputs, in double precision.
 
-    ``outputs`` are elements of one ring of traces with ``width`` inputs.
+    ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`, which records the program.
+    ``width`` is the number of inputs.
 
     >>> from orderconds.ring.traces import Traces
     >>> R = Traces(2)
@@ -54,7 +55,8 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # An output may be a constant. ``placed`` records the constant as an operation.
+        # If an output is a constant, no operation computes it. ``placed`` then records the constant as an
+        # operation.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -137,8 +139,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of all inputs and of all operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind."""
+    """Return the indices of the required operations, sorted by level and kind. All inputs are required, and
+    also all operations on which the outputs ``wanted`` depend."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

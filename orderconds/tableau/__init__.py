@@ -1,4 +1,4 @@
-"""Tableaux: their data, the TOML format, the grammar of coefficients, properties, and the library."""
+"""Tableaux of methods: classes, tableau files in TOML, and the library of known methods."""
 
 from __future__ import annotations
 

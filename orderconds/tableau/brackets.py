@@ -18,8 +18,9 @@ from orderconds.ring.protocol import Element, Ring
 
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
-"""A map from words of nodes to coefficients. The first node of a word acts first. For example, (i, j) denotes
-the product A_j A_i, where A_i is the vector field at node i."""
+"""A map from words to coefficients. A word is a tuple of nodes and denotes a product of vector fields. The
+first node of a word acts first. For example, (i, j) denotes the product A_j A_i, where A_i is the vector
+field at node i."""
 
 MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
@@ -106,9 +107,9 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that counts factors. A term expands to a sum of products of the vector fields at the
-    nodes. The function returns the least and the greatest number of factors in these products. ``elements``
-    maps each name in a term to its definition.
+    """Return a function that maps a term to a pair of numbers. A term expands to a sum of products of the
+    vector fields at the nodes. The pair contains the least and the greatest number of factors in these
+    products. ``elements`` maps each name in a term to its definition.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -135,14 +136,15 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # The minimum of an empty list is undefined, so an empty sum is assumed to have one factor.
+    # An empty sum contains no product, and the minimum of an empty list is undefined. Return (1, 1) instead.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Expand a linear combination of terms. The result maps words of nodes to coefficients. ``named`` maps
-    each name in the terms to its expansion. Words with coefficient zero are omitted.
+    """Expand a linear combination of terms. The result maps words of nodes (:data:`NodeSeries`) to
+    coefficients. ``named`` maps each name in the terms to its expansion. Words with coefficient zero are
+    omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

@@ -47,8 +47,9 @@ def tableau_latex(tableau: Tableau) -> str:
 
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
-    """Return a Butcher array in LaTeX. The rows ``above`` are separated from the rows ``below`` by a rule.
-    Return None if the array is too wide for a column of an article, or if an entry contains a name."""
+    """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
+    the rows of the weights (``below``). Return None if the array is too wide for a column of an article, or
+    if a coefficient contains the name of a number."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -68,8 +69,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table without LaTeX. For a method without a Butcher array, or with
-    more than :data:`WIDEST` stages, return a description and LaTeX equations.
+    """Return the Butcher array as an HTML table. For a method without a Butcher array, or with more than
+    :data:`WIDEST` stages, return the ``repr`` of the tableau and equations in LaTeX.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

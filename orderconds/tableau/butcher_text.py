@@ -57,6 +57,6 @@ def entry(tableau: Tableau, x: Element) -> str:
     text = SHORT.text(SHORT.enclose(x.value) + 0)
     if len(text) <= DIGITS:
         return text
-    # A sum of rounded numbers that is near zero has many leading zeros. The format ``g`` prints an exponent
-    # instead.
+    # If a sum of rounded numbers is near zero, its decimal has many leading zeros. The format ``g`` prints
+    # an exponent instead of the zeros.
     return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that a method has order ``order``, and not a higher order, in ``family``. ``cutoff`` is the
-    power after which the family truncates a series, such as dexpinv. It is None if the family has no such
-    option."""
+    """The claim that a method has order ``order``, and not a higher order, in ``family``. The
+    family truncates a series, such as the series of dexpinv, after the power ``cutoff``. ``cutoff`` is None
+    if the family has no such option."""
 
     family: str
     cutoff: int | None
@@ -30,7 +30,8 @@ class Claims:
     properties: dict[str, bool] = field(default_factory=dict)
 
     def order(self, family: str, cutoff: int | None = None) -> int | None:
-        """Return the claimed order in a family, or None if the file claims no order in this family."""
+        """Return the claimed order in a family, or None if the file claims no order in this family. The
+        family ``rkmk(1)`` has ``cutoff`` 1."""
         for claim in self.orders:
             if (claim.family, claim.cutoff) == (family, cutoff):
                 return claim.order

@@ -64,7 +64,7 @@ def _split_sign(x: Expression) -> tuple[str, Expression]:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Return True if the last operator of x is a multiplication."""
+    """Return True if x is a chain of operations that ends with a multiplication, such as ``a / b * c``."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 

@@ -14,8 +14,8 @@ mean                the mean of two of these matrices (IIID: IIIC and IIIC*; III
 
 Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights are those of
 the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the middle node.
-For an even number of nodes, the first of the two middle nodes is omitted. The error estimate stays accurate
-for stiff equations.
+For an even number of nodes, the first of the two middle nodes is omitted. On stiff equations, these error
+estimates can permit steps that are much longer than the fast time scales.
 
 The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
@@ -87,11 +87,11 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
-        is zero.
+        """Return the weights of the quadrature on all nodes except one. ``left_out`` is the index of the
+        omitted node (counted from 0), whose weight is zero.
 
-        Let e be the vector of the leading coefficients of the Lagrange polynomials. The returned weights
-        differ from the weights b by a multiple of e.
+        The returned weights are b - (b_k / e_k) e, where k is the index of the omitted node, and e_j is the
+        leading coefficient of the Lagrange polynomial l_j.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -113,8 +113,8 @@ class Nodes:
         """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
         column k are equal to ``value``.
 
-        Let R be the matrix that satisfies C(s), and let e be the vector of the leading coefficients of the
-        Lagrange polynomials. Each row of A is the sum of the same row of R and a multiple of e.
+        Let R be the matrix that satisfies C(s), and let e_j be the leading coefficient of the Lagrange
+        polynomial l_j. Row i of A is row i of R plus a multiple of the vector e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -209,10 +209,10 @@ LEAST_WITH_ROW = 3
 
 def construct(kind: str, stages: int) -> Tableau:
     """Return the method of the given kind with the given number of stages. The coefficients are elements of
-    the field of the nodes.
+    the number field that the nodes generate.
 
     Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` for too few stages, or if the
-    degree of the number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
+    degree of this number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
 
     >>> construct("radau2a", 2).method
     RungeKutta(A=((5/12, -1/12), (3/4, 1/4)), b=(3/4, 1/4))

@@ -13,16 +13,17 @@ from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
 """Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``). A
-single integer is the order in the family with the same name as the format."""
+single integer is the order in one family, which has the same name as the tableau format, such as ``rk``."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
     """Return the keys of a Butcher tableau: A, the weights b, and optionally abscissae c and embedded
     weights.
 
-    Each row has one entry for each stage. If A is triangular, the zeros at the end of all rows may be
-    omitted. Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not
-    match.
+    Let s be the number of stages. Each row has s entries. If A is strictly lower triangular, its rows may
+    have 0, 1, ..., s - 1 entries. If A is lower triangular, its rows may have 1, 2, ..., s entries.
+
+    Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not match.
 
     >>> runge_kutta([[], [0.5]], [0, 1])
     {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
@@ -44,8 +45,8 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError if A is neither square nor triangular. A triangular A has rows with 0, 1, 2, ... or
-    with 1, 2, 3, ... entries.
+    """Raise TableauError if the rows of A have wrong lengths. The rows must have s, ..., s entries, or
+    0, 1, ..., s - 1 entries, or 1, 2, ..., s entries, where s is the number of stages.
     """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
@@ -57,10 +58,10 @@ def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> N
         )
     if lengths not in shapes:
         raise TableauError(
-            f"rows of {', '.join(map(str, lengths))} entries",
+            f"row lengths {', '.join(map(str, lengths))}",
             where="A",
-            expected=f"{stages} rows of {stages} entries, or for an explicit method rows of "
-            f"{', '.join(map(str, shapes[1]))} entries",
+            expected=f"{stages} rows of {stages} entries, or the row lengths "
+            f"{', '.join(map(str, shapes[1]))} for an explicit method",
         )
 
 

@@ -19,7 +19,8 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""The default radius of the ball that a double x denotes, in units of 2^-53 max(1, |x|)."""
+"""A double x represents a ball (interval) around x. This number is the default radius of the ball, in units
+of 2^-53 max(1, |x|)."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
@@ -28,8 +29,7 @@ SHORT = 26
 """A double with at most this number of significant bits counts as an exact number."""
 
 PRINTED = 16
-"""A decimal from another program is treated as a printed double only if it has at least this number of
-digits."""
+"""A decimal from another program is not treated as a double if it has fewer digits than this number."""
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and denominator have at most this number of bits.
@@ -51,8 +51,8 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 
 def double_text(x: float, where: str = "") -> str:
-    """Return a double as the text of a coefficient. If the double has few significant bits, the text is an
-    exact number. The text of every other double has the suffix ``d``.
+    """Return a double as the text of a coefficient. A double that counts as an exact number
+    (:func:`is_short`) is written without suffix. Every other double is written with the suffix ``d``.
 
     Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, if x is not finite.
 
@@ -120,7 +120,8 @@ def is_printed(decimal: str) -> bool:
 
     - Fewer than 16 digits: the result is False.
     - 16 or 17 digits: the result is True.
-    - More digits: the result is True if the nearest double has the same digits.
+    - More digits: the result is True if the nearest double, rounded to the same number of digits, equals the
+      decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

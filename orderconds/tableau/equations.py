@@ -53,8 +53,9 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, the result contains only the number of stages, nodes or
-    coefficients.
+    If the equations do not fit on a page, only a number is printed. For a Magnus method, it is the number
+    of nodes. For compositions and splittings, it is the number of coefficients. For all other methods, it is
+    the number of stages.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))

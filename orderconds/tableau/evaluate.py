@@ -38,8 +38,8 @@ class Scalars(Protocol):
     """A ring in which expressions are evaluated: balls, or a number field that grows with each new root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
-        """Return the rational number ``value`` if ``unit`` is zero. Otherwise, return the ball of radius
-        ``unit`` around ``value``."""
+        """Return the rational number ``value`` if its uncertainty ``unit`` is zero. Otherwise, return the
+        ball of radius ``unit`` around ``value``."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root of x of degree ``index`` (2 for the square root). Raises ValueError for an
@@ -114,8 +114,8 @@ def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant in an expression. The radius ``unit`` of a constant is positive if the constant is
-    a rounded decimal or a double, and zero if it is exact.
+    """Yield every constant in an expression. The attribute ``unit`` of a constant is its uncertainty. It is
+    positive for a rounded decimal or a double, and zero for an exact number.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -167,7 +167,7 @@ class _Evaluation:
 
     def bounded(self, value: Element) -> Element:
         if self.scalars.size(value) > MAX_SIZE:
-            raise self.error("a number that grows too large", f"integers of at most {MAX_SIZE} bits")
+            raise self.error("a number that is too large", f"integers of at most {MAX_SIZE} bits")
         return value
 
     def compute(self, x: Expression) -> Element:
@@ -197,7 +197,7 @@ class _Evaluation:
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
             raise self.error(
-                f"a power that grows too large (exponent {exponent})",
+                f"a power that is too large (exponent {exponent})",
                 f"integers of at most {MAX_SIZE} bits",
             )
         try:

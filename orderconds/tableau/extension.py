@@ -2,11 +2,12 @@
 step from t_0 to t_0 + h.
 
 The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
-b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q under the following
-condition. For each tree t with at most q nodes, the elementary weight with b_i(theta) is the polynomial
+b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q if each tree t
+with at most q nodes satisfies this condition: the elementary weight of t with the weights b_i(theta) is
 theta^|t| / gamma(t) (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6).
 The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same weights for the Lie algebra elements
-k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0.
+k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0. Here the dot denotes the action
+of the Lie group on a point.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ class Extension:
 
     @property
     def degree(self) -> int:
-        """The degree of the polynomials."""
+        """The degree of the polynomials b_i(theta)."""
         return len(self.rows[0])
 
     def power(self, p: int) -> Row:

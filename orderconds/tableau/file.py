@@ -56,8 +56,9 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """The content of a tableau file. ``data`` contains the values as TOML gives them, and ``entry`` contains
-    the same values after conversion to a class for the format. The other attributes describe the method."""
+    """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` contains
+    the same values as an object, whose class depends on the format. The other attributes describe the
+    method."""
 
     data: Mapping[str, object]
     entry: Format
@@ -136,7 +137,7 @@ def parsed(text: str, where: str) -> Data:
         raise TableauError(
             f"a number or a date that cannot be read: {str(problem).partition(';')[0]}",
             where=where,
-            expected='coefficients in quotation marks, as "1/2"',
+            expected='coefficients in quotation marks, such as "1/2"',
         ) from None
 
 
@@ -155,8 +156,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The message of this error contains the name of the tableau. The messages of all other errors in this
-    # module contain ``where`` instead, usually the path of the file.
+    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``,
+    # which is usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -305,7 +306,8 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Parse a decimal that identifies a root."""
+    """Parse the decimal ``near`` of a named root. The uncertainty of the result is one unit of the last
+    digit."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')

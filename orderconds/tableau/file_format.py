@@ -36,8 +36,8 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order in a family with the option ``cutoff``, for one value of this option. ``cutoff`` is
-    the power after which the family truncates a series, such as dexpinv."""
+    """The claimed order in a family, for one value of the option ``cutoff`` of the family. The family
+    truncates a series, such as the series of dexpinv, after the power ``cutoff``."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
@@ -58,15 +58,16 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims``: whether a property holds, the order in a family, or one order for each
-``cutoff``."""
+"""A value in the table ``claims``: True or False for a property, the order in a family, or a list of orders
+for several values of the option ``cutoff`` of a family."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats, with the keys that all formats share. The values in the table
     ``numbers`` have the type :data:`Number`. The values in the table ``claims`` have the type :data:`Claim`.
 
-    The key ``order`` is the claimed order in the family with the same name as the format.
+    The value of ``family`` is the name of the format, and also of a family of methods. ``order`` is the
+    claimed order of the method in this family.
     """
 
     name: str
@@ -81,15 +82,15 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array by which this format is recognised in a file of arrays. The name is empty for the
-    default format."""
+    """If a tableau is stored in named arrays, its format is recognised by the array with this name. The name
+    is empty for the default format."""
     as_products: ClassVar[bool] = False
-    """True if a file of arrays stores a tableau of this format as a list of exponentials."""
+    """True if the array ``exponentials`` stores the coefficients (:mod:`orderconds.exchange.arrays`)."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default keys and values of a tableau file. They may depend on ``names``, the names of the
-        arrays that store the tableau."""
+        """Return default values for keys that are missing if a tableau is stored in named arrays. ``names``
+        contains the names of these arrays."""
         return {}
 
     def coefficients(self) -> Places:
@@ -122,7 +123,8 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return the row at position ``place``, padded with zeros to length ``s``.
+    """Return a row of coefficients, padded with zeros to length ``s``. ``place`` is the position of the row
+    in the file. ``values`` maps the position of each coefficient to its value.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)

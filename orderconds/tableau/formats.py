@@ -101,7 +101,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield the rows of A, then b, c, the embedded weights, and the rows of the continuous extension."""
+        """Yield the position and the text of each coefficient: first A, then b, c, the embedded weights, and
+        the continuous extension."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -184,7 +185,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield the rows of A, then b, then the rows of A_hat, then b_hat."""
+        """Yield the position and the text of each coefficient: first A, then b, A_hat and b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
@@ -276,8 +277,9 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield A and B of a low-storage scheme, or the rows of the stages and of the update. Then yield the
-        rows of the embedded update."""
+        """Yield the position and the text of each coefficient. The coefficients of a low-storage scheme are A
+        and B. For all other schemes, they are the coefficients of the stages and of the update. The
+        coefficients of the embedded update come last."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")

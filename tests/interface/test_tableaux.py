@@ -137,9 +137,9 @@ def test_every_tableau_of_the_library_has_a_short_name_and_a_display(name: str) 
 @pytest.mark.parametrize(
     ("A", "b", "message"),
     [
-        ([[0, 0], [1]], [0, 1], "A: rows of 2, 1 entries; expected 2 rows of 2 entries"),
+        ([[0, 0], [1]], [0, 1], "A: row lengths 2, 1; expected 2 rows of 2 entries"),
         ([[0, 0]], [0, 1], "A: A has 1 rows, b has 2 entries"),
-        (np.zeros((2, 3)), [0, 1], "A: rows of 3, 3 entries"),
+        (np.zeros((2, 3)), [0, 1], "A: row lengths 3, 3"),
         (np.zeros(2), [0, 1], "A[1]: np.float64(0.0) of type float64; expected a sequence"),
         ([[0, 0], [1j, 0]], [0, 1], "A[2][1]: the complex number 1j; expected a real number"),
         (np.array([[0, 0], [1, 1j]]), [0, 1], "A[1][1]: the complex number 0j"),

@@ -121,8 +121,8 @@ def test_equal_spellings_share_one_element() -> None:
         ("9^9^9^9", "a power of a power"),
         ("9^999999999", "exponent 999999999"),
         ("2^(1/1000)", "exponent 1/1000"),
-        ("((9^64)^64)^64", "grows too large"),
-        ("(((1 + sqrt(2))^64)^64)^64", "grows too large"),
+        ("((9^64)^64)^64", "is too large"),
+        ("(((1 + sqrt(2))^64)^64)^64", "is too large"),
         ("2^sqrt(2)", "'sqrt'"),
         ("2^x", "'x'"),
         ("(" * 100 + "1" + ")" * 100, "more than 40 nested parentheses"),
@@ -139,7 +139,7 @@ def test_what_is_no_coefficient_is_refused_with_its_place(text: str, complaint: 
 
 def test_numbers_that_double_in_size_at_every_name_are_stopped() -> None:
     numbers = {"n0": "9^64", **{f"n{i}": f"n{i - 1}*n{i - 1}" for i in range(1, 30)}}
-    with pytest.raises(TableauError, match="grows too large"):
+    with pytest.raises(TableauError, match="is too large"):
         value("n29", **numbers)
 
 
