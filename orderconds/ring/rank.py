@@ -29,9 +29,10 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
 
 
 def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
-    """Return each column that is not a pivot column as a combination of pivot columns.
+    """Express each column that is not a pivot column as a combination of pivot columns.
 
-    The result has the form {column: {pivot column: coefficient}}, with all coefficients modulo the prime.
+    A pivot column is not a linear combination of earlier columns. The result has the form {column: {pivot
+    column: coefficient}}, with all coefficients modulo the prime.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

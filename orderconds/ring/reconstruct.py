@@ -8,8 +8,9 @@ from math import isqrt, prod
 
 
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
-    """Return the fraction p/q with the given residues modulo the primes. The fraction is unique, because |p|
-    and q must be at most sqrt(M/2), where M is the product of the primes.
+    """Return the fraction p/q with the given residues modulo the primes. Only fractions for which |p| and q
+    are at most sqrt(M/2) are considered, where M is the product of the primes. At most one of these fractions
+    has the given residues.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
     Section 5.10). Raises ArithmeticError if there is no such fraction.

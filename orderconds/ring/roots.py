@@ -101,8 +101,8 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots in ascending order. The index of a root in the result does not
-    depend on the precision ``bits``.
+    """Return balls around the real roots of a polynomial, in ascending order. The index of a root in the
+    result does not depend on the precision ``bits``. The polynomial need not be monic.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

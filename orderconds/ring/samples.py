@@ -146,11 +146,11 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the indices of the pivot columns of a matrix modulo ``prime``, and each column that is not a
-    pivot column as a combination of pivot columns.
+    """Return two results for a matrix modulo ``prime``. The first contains the indices of the pivot columns.
+    A pivot column is not a combination of earlier columns.
 
-    A pivot column is not a combination of earlier columns. The second result has the form {column: {pivot
-    column: coefficient}}, with all coefficients modulo ``prime``.
+    The second result expresses each other column as a combination of pivot columns. It has the form {column:
+    {pivot column: coefficient}}, with all coefficients modulo ``prime``.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

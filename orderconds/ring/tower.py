@@ -27,8 +27,8 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree of a field. For coefficients in a field of higher degree, arithmetic with balls is
-faster."""
+"""The largest degree of a field. In a field of higher degree, exact arithmetic is slower than arithmetic with
+balls."""
 MAX_DIMENSION = 64
 """The largest dimension of an algebra that is constructed to adjoin a root."""
 
@@ -57,12 +57,13 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return an exact rational number.
+        """Return the exact rational number ``value``.
 
-        Raises TypeError if ``unit`` is positive, because only a ball can represent a rounded decimal.
+        If ``unit`` is positive, ``value`` is a rounded decimal with an error of at most ``unit``. Raises
+        TypeError in this case, because only a ball can represent a rounded decimal.
         """
         if unit:
-            raise TypeError("a number field contains no balls")
+            raise TypeError("a number field cannot represent a rounded decimal")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
@@ -144,11 +145,10 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Return the number b as an element of the field. If the field does not contain b, the field is
-        extended.
+        """Return a root b of the equation x^k = sum_j powers[j] x^j with k = len(powers), as an element of
+        the field. The function ``enclosure`` returns balls around b.
 
-        The number b is given by ``enclosure`` and the equation b^k = sum_j powers[j] b^j with k =
-        len(powers).
+        If the field does not contain b, the field is extended.
         """
         field = self.field
         if len(powers) == 1:
@@ -182,7 +182,7 @@ class _Relation:
 
     - ``characteristic``: the characteristic polynomial of c.
     - ``a``: the element a as a polynomial in c.
-    - ``b``: the element that x represents, as a polynomial in c.
+    - ``b``: the residue class of x as a polynomial in c.
     """
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
@@ -195,8 +195,8 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
     """Return a pair (m, relation) for an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a)
     is ``field``, and p = x^k - sum_j powers[j] x^j with k = len(powers).
 
-    Let b be the element that x represents. Then c = b + m a if m is an integer, and c = a b if m is None. The
-    class :class:`_Relation` describes ``relation``.
+    Let b be the residue class of x. Then c = b + m a if m is an integer, and c = a b if m is None. The class
+    :class:`_Relation` describes ``relation``.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -212,7 +212,7 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
             return multiplier, _Relation(left.solve(_flat([columns[-1], a, b], field.degree)), dimension)
         except ZeroDivisionError:
             continue
-    raise AssertionError("found no element that generates the algebra, although it is separable over Q")
+    raise AssertionError("found no generator of the algebra, although the algebra is separable over Q")
 
 
 def _multipliers(degree: int) -> Iterator[int | None]:
@@ -228,9 +228,9 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
     """Return the product of an element of the algebra K[x]/(p) and the element c. The function
     :func:`_primitive` defines K = Q(a) and p.
 
-    Let b be the element that x represents, and let m be ``multiplier``. Then c = b + m a if m is an integer,
-    and c = a b if m is None. The argument ``vector`` and the result contain the coefficients of the powers 1,
-    b, b^2, and so on.
+    Let b be the residue class of x, and let m be ``multiplier``. Then c = b + m a if m is an integer, and c =
+    a b if m is None. The argument ``vector`` and the result contain the coefficients of the powers 1, b, b^2,
+    and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -244,8 +244,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return a matrix over Q. Each column contains the rational coordinates of one of the given elements of
-    the algebra."""
+    """Return a matrix over Q with one column for each element in ``columns``. An element of K[x]/(p) is a
+    list of coefficients in K, and its column contains the rational coordinates of the coefficients."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -253,7 +253,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor of ``characteristic`` that has the enclosed number as a root."""
+    """Return the monic irreducible factor of ``characteristic`` that vanishes at a given number. The function
+    ``enclosure`` returns balls around this number."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

@@ -69,11 +69,11 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Return True if x is the constant zero, and False for every recorded operation."""
+        """Return True if x is the constant zero. If x is the result of a recorded operation, return False."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
-        """Return the constant, or the index of the operation, as text."""
+        """Return a constant x as a rational number. For the result of operation n, return ``%n``."""
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
@@ -103,8 +103,8 @@ class Traces:
 
 
 class Trace:
-    """An element of the ring :class:`Traces`. It is the index of an operation in the program, or a rational
-    number that is not recorded yet."""
+    """An element of the ring :class:`Traces`. It is the index of a recorded operation, or a rational number
+    that is not recorded yet."""
 
     __slots__ = ("constant", "place", "ring")
 

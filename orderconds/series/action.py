@@ -81,8 +81,8 @@ class ActionSeries(ABC):
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return the coefficients tau_t(i) of a tree t in the velocities of all stages i. The tree has values
-        in the Lie algebra g."""
+        """Return the coefficient tau_t(i) for each stage i, where t is the g-valued ``tree``. It is the
+        coefficient of t in the velocity of stage i."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -96,8 +96,8 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return the coefficients psi_p(i) of a tree p in the momenta of all stages i. The tree has values in
-        the dual g* of the Lie algebra."""
+        """Return the coefficient psi_p(i) for each stage i, where p is the g*-valued ``tree``. It is the
+        coefficient of p in the momentum of stage i."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -150,16 +150,17 @@ class ActionSeries(ABC):
     def condition(self, tree: Velocity) -> Element:
         """Return the left-hand side of the condition of a tree t: the number sum_i b_i tau_t(i).
 
-        This number is the coefficient of t in the update, and also the coefficient of the elementary
-        Hamiltonian of t. To save memory, the coefficients tau_t(i) are not stored in the cache.
+        This number is the coefficient of t in the update. It is also the coefficient of the elementary
+        Hamiltonian of t in the generating function of the step. To save memory, the coefficients tau_t(i) are
+        not stored in the cache.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficients of all words of trees with at most ``vertices`` vertices, in the group
-        element of the update.
+        """Return a map from words of trees to their coefficients in the group element of the update. The map
+        contains all words with at most ``vertices`` vertices.
 
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Let ``F(t)`` be
         the right-invariant field of the tree t at (q0, mu1), divided by the order of the symmetry group of t.
@@ -221,9 +222,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the contribution of one exponential to the coefficient of the word u x v. Here u is
-        ``before``, v is ``after``, and the letter x comes from the exponential with index ``place``. The
-        coefficient of x in the exponent of this exponential is set to one."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
+        ``before``, and v is ``after``. The letter x occurs only in the exponential with index ``place``, and
+        has the coefficient one in its exponent."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -252,8 +253,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of the word in partial products of the exponentials that ``row`` selects.
-        Entry k of the result belongs to the product of the first k exponentials."""
+        """Return the coefficients of ``word`` in products of exponentials. Entry k is the coefficient in the
+        product of the first k exponentials of the group element that ``row`` selects."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -274,8 +275,9 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of the word in partial products of the exponentials that ``row`` selects.
-        Entry k of the result belongs to the product without the first k exponentials."""
+        """Return the coefficients of ``word`` in products of exponentials. Entry k is the coefficient in the
+        product that remains if the first k exponentials of the group element are omitted. The argument
+        ``row`` selects the group element."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

@@ -29,7 +29,7 @@ def tree_counts(order: int) -> tuple[int, ...]:
 
 
 def velocity_count(vertices: int) -> int:
-    """Return the number of g-valued action trees with ``vertices`` copies of the Hamiltonian H.
+    """Return the number of g-valued action trees with ``vertices`` vertices.
 
     >>> [velocity_count(n) for n in range(1, 7)]
     [1, 3, 17, 111, 813, 6331]
@@ -45,7 +45,7 @@ def class_count(vertices: int) -> int:
     vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of rooted
     trees, and E the number of such edges in all classes. Then the number of classes is R - E. Each such edge
     divides the tree into a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. Therefore E is the
-    number of pairs of a force and a g-valued tree with ``vertices`` vertices in total.
+    number of pairs (force, g-valued tree) in which both trees together have ``vertices`` vertices.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -58,8 +58,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return the numbers of g-valued and of g*-valued trees with 0, 1, ..., ``order`` vertices: the
-    coefficients of T and P in :func:`tree_counts`."""
+    """Return the numbers of g-valued and of g*-valued trees with 0, 1, ..., ``order`` vertices. They are the
+    coefficients of the functions T and P in the docstring of :func:`tree_counts`."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -71,7 +71,7 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
         # Let p_d be the number of g*-valued trees with d vertices. Let e_n be the number of multisets of
-        # g*-valued trees with n vertices in total. Euler's transform gives e_n from the p_d, for n >= 1:
+        # g*-valued trees with n vertices in total. For n >= 1, Euler's transform is the equation
         # n e_n = sum_{k=1}^n (sum_{d|k} d p_d) e_{n-k}.
         e = [1] + [0] * order
         for n in range(1, size):
@@ -86,9 +86,9 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
-    """Return the dimensions of a free Lie algebra in the weights 0, ..., ``order``, by Witt's formula. The
-    algebra has ``t[n]`` letters of weight n."""
-    # Entry n of ``power`` is n times the coefficient of x^n in log 1/(1 - T).
+    """Return the dimensions of the subspaces of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
+    formula. The algebra has ``t[n]`` letters of weight n."""
+    # Let T be sum_n t[n] x^n. Entry n of ``power`` is n times the coefficient of x^n in log(1/(1 - T)).
     power = [0] * (order + 1)
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

@@ -1,11 +1,12 @@
 """Enumeration of the action trees with a given number of vertices, simplest trees first.
 
 A g-valued tree denotes an element of the Lie algebra g. A g*-valued tree denotes an element of the dual g*.
-The vertices of a tree are copies of the Hamiltonian H.
+Each vertex of a tree represents a derivative of the Hamiltonian H.
 
 The cost of a tree measures how difficult its condition is to read. No subtree costs more than the whole tree.
 A long list is enumerated in parts, with increasing cost limits, because a check usually needs only the
-simplest trees. There are 6331 trees with six vertices, but a few hundred decide the order of most methods.
+simplest trees. There are 6331 g-valued trees with six vertices. For most methods, the conditions of a few
+hundred of these trees are sufficient to determine the order.
 """
 
 from __future__ import annotations
@@ -28,8 +29,7 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The cost limits of the parts of an enumeration. Each part contains the trees whose cost is above the
-previous limit and at most the limit of the part."""
+"""Trees are enumerated in parts of increasing cost. Each number is the largest cost in one part."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -88,7 +88,8 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``, not sorted."""
+    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``. The trees are not
+    sorted."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -162,8 +163,8 @@ def _chosen(
     ``vertices`` vertices in total. The cost of the multiset, which is the sum of the costs of its trees, is
     at most ``rest``.
 
-    Each multiset is generated only once, because two arguments limit the next tree. The next tree has at most
-    ``largest`` vertices. If it has ``largest`` vertices, its index in :func:`_momenta` is at most ``bound``.
+    Each tree has at most ``largest`` vertices. If a tree has exactly ``largest`` vertices, its index in
+    :func:`_momenta` is at most ``bound``. These limits ensure that each multiset is generated only once.
     """
     if vertices == 0:
         yield 0, ()

@@ -6,8 +6,9 @@ over times replace sums over stages:
 - ``Phi_w(s)``, for the word w = t_1...t_k, is the iterated integral of ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
   over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral of this product over 1 >= s_1 >= ... >= s_k >= s;
-- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``. Here the word v is
-  integrated from s to s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
+- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``. Here
+  ``Phi_v(s, s')`` is the iterated integral for the word v from s to s'. With Python's slices of v, it is
+  equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
 """
 
 from __future__ import annotations

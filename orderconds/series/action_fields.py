@@ -21,8 +21,8 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients. Bits
-    are counted from 0: bit i of a mask is set if the term contains eps_(i+1).
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps a bit mask for each term to the
+    coefficient of the term. Bits are counted from 0: bit i is set if the term contains eps_(i+1).
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -122,7 +122,7 @@ class ActionFields:
         return value
 
     def matrix(self, field: Coordinates) -> Matrix:
-        """Return the matrix of a Lie algebra element given by coordinates."""
+        """Return the matrix of the Lie algebra element that has the coordinates ``field``."""
         size = range(len(self.q))
         return tuple(
             tuple(
@@ -194,15 +194,16 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The method computes the initial momentum mu0 from the final momentum mu1. ``weight * change`` is
-            # a term of the error of mu0. The error of mu1 as a function of mu0 has the opposite sign.
+            # Let mu0 be the initial momentum and mu1 the final momentum. The method computes mu0 from mu1,
+            # and ``weight * change`` is a term of the error of mu0. If mu1 is considered as a function of
+            # mu0, the error of mu1 has the opposite sign. Therefore the term is subtracted.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
         """Return the coordinates of the covector that maps a vector x to a mixed derivative of H(q, mu). H is
-        differentiated in q along x and along the velocities of the letters of ``tree.word``. H is
-        differentiated in mu along the covectors of ``tree.momenta``."""
+        differentiated in q along x and along the elementary velocities xi_t of the trees t in ``tree.word``.
+        H is differentiated in mu along the covectors m_p of the trees p in ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -23,7 +23,8 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
+"""The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m, in which the factor
+X^m acts first."""
 
 Varied = dict[int, Element]
 """A map from each stage to the coefficient of a word u x v, where x is a variation of the velocity of the
@@ -31,8 +32,8 @@ stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b).
-    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
+    """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b). The
+    series dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     The coefficients of a word are computed for all stages together.
 
@@ -71,9 +72,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the exponential of stage ``row``, or of the update if
-        ``row`` is the number of stages. Here u is ``before``, v is ``after``, and the letter x is a variation
-        of the velocity of the stage with index ``stage``."""
+        """Return the coefficient of the word u x v in the exponential of stage ``row``. If ``row`` is the
+        number of stages, the exponential is that of the update. Here u is ``before``, v is ``after``, and the
+        letter x is a variation of the velocity of the stage with index ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -108,8 +109,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of a word in the n-th powers of the exponents of all stages. If ``update``
-        is 1, the result contains only the coefficient in the n-th power of the exponent of the update."""
+        """Return the coefficient of a word in X_i^n for each stage i, where X_i is the exponent of the stage.
+        If ``update`` is 1, the result contains only the coefficient in Y^n, where Y is the exponent of the
+        update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -123,9 +125,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word u x v in the n-th powers of the exponents of all stages. The
-        module docstring defines u, x and v. If ``update`` is 1, the result contains only the coefficients in
-        the n-th power of the exponent of the update."""
+        """Return the coefficients of the word u x v in X_i^n for each stage i, where X_i is the exponent of
+        the stage. If ``update`` is 1, the result contains only the coefficients in Y^n, where Y is the
+        exponent of the update. The module docstring defines u, x and v."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -141,10 +143,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
+        """Add the result of :meth:`_varied_power` to ``totals``, for n > 1. The n-th power is computed as the
+        product of the first power and the power n - 1."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # If the cut is before x, ``rest`` is negative. If the cut is after x, ``rest`` is the number of
-            # letters of ``after`` before the cut.
+            # ``cut`` divides the word u x v into two words. If the first word contains x, ``rest`` is the
+            # number of letters of ``after`` in the first word. Otherwise, ``rest`` is negative.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -156,8 +159,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j. Stage j has the
-        exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r."""
+        """Return, for each stage j, the coefficient of a word in the truncated series dexpinv_{(r),X_j} xi_j.
+        The module docstring defines this series."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -171,9 +174,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word u x v in dexpinv_{(r),X_j} xi_j for all stages j. Here u is
-        ``before``, v is ``after``, and the letter x is a variation of the velocity of one stage. Stage j has
-        the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r."""
+        """Return, for each stage j, the coefficients of the word u x v in the truncated series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series. Here u is ``before``, v is
+        ``after``, and the letter x is a variation of the velocity of one stage."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -193,8 +196,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of the word ``v xi_j w`` in dexpinv_{(r),X_j} xi_j for each stage j. Stage j
-        has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
+        """Return, for each stage j, the coefficient of the word ``v xi_j w`` in the truncated series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
 
         Here v is ``before``, w is ``behind``, and xi_j counts as one letter. The letters of v and w come from
         X_j. Return None if all coefficients are zero.
@@ -213,8 +216,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of the word ``u x v xi_j w`` in dexpinv_{(r),X_j} xi_j for each stage j.
-        Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
+        """Return, for each stage j, the coefficients of the word ``u x v xi_j w`` in the truncated series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
 
         Here u is ``before``, v is ``after``, w is ``behind``, and xi_j counts as one letter. The letter x is
         a variation of the velocity of one stage.
@@ -228,8 +231,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``w xi_j u x v`` in dexpinv_{(r),X_j} xi_j for each stage j.
-        Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
+        """Return, for each stage j, the coefficients of the word ``w xi_j u x v`` in the truncated series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
 
         Here w is ``first``, u is ``before``, v is ``after``, and xi_j counts as one letter. The letter x is a
         variation of the velocity of one stage.
@@ -262,8 +265,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi with up to ``most`` factors X. The term q X^n
-        xi X^m is represented by the triple (q, m, n)."""
+        """Return the terms q X^n xi X^m of the truncated series dexpinv_X xi with m + n <= ``most``, as
+        triples (q, m, n)."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -292,10 +295,11 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return the terms of the inverse of the truncated dexp, up to the power ``most``.
+    """Return the terms q X^n xi X^m of the inverse of the truncated dexp_X, applied to xi, with m + n <=
+    ``most``. The result contains the triples (q, m, n).
 
-    The terms are the triples (q_k comb(k, m) (-1)^m, m, k - m) for all k <= ``most`` with q_k != 0 and all m
-    <= k. Here sum_k q_k z^k is the power series of 1/sum_{j<=r} z^j/(j+1)! with r = ``cutoff``.
+    Let r be ``cutoff``, and let sum_k q_k z^k be the power series of 1/sum_{j<=r} z^j/(j+1)!. For k = m + n,
+    the coefficient q is q_k comb(k, m) (-1)^m. Terms with q_k = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

@@ -1,5 +1,5 @@
-"""Selection of independent action conditions. Their values at random methods are computed modulo a prime, and
-ranks of the values determine which conditions are independent.
+"""Selection of independent action conditions. The left-hand sides of the conditions are evaluated for random
+methods modulo a prime. The ranks of these values determine which conditions are independent.
 
 A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
 n. The polynomial must be the same for every method **and for the exact flow**. Without the exact flow, a
@@ -31,7 +31,8 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 a vector with one residue for each method (sample)."""
 
 SPARE_SAMPLES = 24
-"""The number of additional samples, which make accidental dependences improbable."""
+"""The number of samples in excess of the largest possible rank. With these additional samples, it is
+improbable that independent conditions seem to be dependent."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would require more memory."""
@@ -43,8 +44,8 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
 
     The trees are selected modulo two primes, and the larger of the two sets is returned. The conditions of
     the returned trees are certainly independent, because a rank modulo a prime is never larger than the rank
-    over Q. With high probability no independent condition is missing. This is proved if the number of trees
-    equals the upper bound of :func:`~orderconds.series.action_counts.tree_counts`.
+    over Q. With high probability no independent condition is missing. If the number of trees is equal to the
+    upper bound of :func:`~orderconds.series.action_counts.tree_counts`, certainly none is missing.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -72,8 +73,8 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the left-hand sides of the conditions of the given trees, modulo ``prime``, for random methods.
-    The last entry of each vector is the value for the exact flow.
+    """Return a map from each tree to a vector. The vector contains the left-hand side of the condition of the
+    tree for random methods, modulo ``prime``. The last entry is the value for the exact flow.
 
     Calls that differ only in the list of trees use the same random methods.
 
@@ -101,8 +102,9 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank at one order: the number of monomials in independent elementary
-    Hamiltonians (:func:`~orderconds.series.action_counts.tree_counts`) with ``order`` vertices in total.
+    """Return the largest possible rank for the conditions of order ``order``. It is the number of products of
+    independent elementary Hamiltonians (:func:`~orderconds.series.action_counts.tree_counts`). The factors
+    of a product have ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -1,8 +1,8 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The polynomial is the same for every method of the family and for the exact flow. Its coefficients satisfy
-linear equations, which the values at random methods determine. The equations are solved modulo two primes,
-and the rational coefficients are reconstructed from the residues.
+The polynomial is the same for every method of the family and for the exact flow. The values of the conditions
+for random methods and for the exact flow give linear equations for the coefficients of the polynomial. The
+equations are solved modulo two primes, and the rational coefficients are reconstructed from the residues.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. They follow from the equation ``psi_{L(o(|L(o)))} = 3 psi_{L(o o)} - psi_{L(o)}^2``,
@@ -36,8 +36,8 @@ values of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return the condition of each dependent tree of the highest order, as a polynomial in the conditions of
-    independent trees.
+    """Return a map from each dependent tree of the highest order to a polynomial. The polynomial expresses
+    the condition of the tree by the conditions of independent trees.
 
     ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees`. The relations are
     wrong with a probability of about 10^-8; :func:`hold_over_rationals` verifies them over Q.
@@ -132,8 +132,9 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return the value of each tree as a linear combination of monomials: a map from indices of monomials to
-    coefficients modulo ``prime``."""
+    """Express the condition of each tree as a linear combination of ``monomials``, which are products of
+    conditions. Return a map for each tree. It maps the indices of monomials to coefficients modulo
+    ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
@@ -146,7 +147,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees from ``trees[start:]`` that have ``vertices`` vertices in total."""
+    """Yield multisets of trees from ``trees[start:]``. The trees of a multiset have ``vertices`` vertices in
+    total."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -2,7 +2,7 @@
 
 Let w, u, v be words of trees and M, N multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w |
 M) v | N)`` differ in the root. Their coefficients are equal for every method and for the exact flow, because
-two sums over stages can be exchanged. Trees that are connected by moves of the root form a class. The
+two sums over stages can be exchanged. All trees that differ only in the choice of the root form a class. The
 condition of one tree of each class is sufficient.
 """
 
@@ -63,9 +63,9 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return a list of computed classes, which is empty at first, and an iterator that computes the classes.
-    The function :func:`classes_in_turn` appends each class from the iterator to the list. A class contains
-    the trees with ``vertices`` vertices that differ only in the choice of the root."""
+    """Return a pair (classes, iterator). The iterator computes the classes of trees with ``vertices``
+    vertices. The list ``classes`` is empty at first, and :func:`classes_in_turn` appends each class from the
+    iterator to it. The trees of a class differ only in the choice of the root."""
     return [], _classes(vertices)
 
 

@@ -1,15 +1,16 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
 Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. D_q and D_mu denote derivatives in
-q and mu. The vertices of a tree are copies of H. There are two kinds of trees, and both may contain subtrees
-of both kinds:
+q and mu. Each vertex of a tree represents a derivative of H. There are two kinds of trees, and both may
+contain subtrees of both kinds:
 
 - A g-valued tree ``t = (w, M)`` is a :class:`Velocity`. It contains a word w of g-valued trees and a multiset
   M of g*-valued trees. It denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
   along the covectors of M. The first letter of w acts first.
-- A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a derivative of
-  ``D_q H``. The star marks the free direction between the words u and v. A transport ``L(t_1 ... t_k)`` is
-  the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
+- A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a covector. It
+  maps x to the derivative of H along the right-invariant fields of u, of x and of v, and along the covectors
+  of M. The star marks the position of x. A transport ``L(t_1 ... t_k)`` is the covector ``x -> <mu, ad t_1
+  ... ad t_k x>``.
 
 A velocity ``o(w | M)`` also denotes the elementary Hamiltonian ``H_{q..mu..}[w; M]``, a term of the
 generating function. Equal trees are identical objects, because all nodes are interned.
@@ -23,7 +24,7 @@ from math import factorial, prod
 
 class _Node:
     """The base class of the three kinds of nodes. A node stores three properties of the tree below
-    it: the number of vertices, the cost and the canonical text. Each vertex is a copy of the Hamiltonian H.
+    it: the number of vertices, the cost and the canonical text.
 
     The cost measures how difficult the condition of a tree is for a reader.
     """
@@ -47,7 +48,8 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees. Trees are sorted by the number of vertices, then by cost."""
+        """The sort key of trees. Trees are sorted by the number of vertices, then by cost, by the length
+        of the text, and by the text."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
@@ -159,8 +161,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the additional cost of a word with different letters. It is zero if all letters are equal,
-    because the coefficient of the word is then a power of one sum.
+    """Return the additional cost of a word with different letters. The result is zero if all k letters are
+    equal, because the coefficient of the word is then c^k/k!, where c is the coefficient of the letter.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -260,8 +262,9 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text. Here ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    The directions of right-invariant derivatives in q come before the semicolon, and the directions of
-    derivatives in mu after the semicolon.
+    The letters after ``H_`` are the variables in which H is differentiated. A dot is the argument of a
+    covector. The directions of right-invariant derivatives in q come before the semicolon, and the
+    directions of derivatives in mu after the semicolon.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

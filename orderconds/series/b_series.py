@@ -132,8 +132,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """A triple (k, j, weight_j) for each partial sum 1, 2, .... The partial sum is equal to partial sum k
-        plus weight_j x_j. Partial sum 0 is zero."""
+        """Triple number n = 1, 2, ... has the form (k, j, weight_j). It defines the partial sum with number
+        n: partial sum k plus weight_j x_j. Partial sum 0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

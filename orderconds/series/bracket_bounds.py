@@ -11,12 +11,14 @@ brackets with new letters contribute to these terms. For each argument, the sum 
 of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
 Second bound: in each argument, take the terms with exactly one new letter. For each argument, the sum of
-these terms has the form sum_n ad_(P_n) q_n with polynomials P_n. Let S be the space that these sums span, and
-d the dimension of S. Consider the first bracket with new letters that the program computes. Let x be the sum
-of those terms of the bracket that contain exactly one new letter. The factors of the bracket contain no other
-brackets with new letters. Hence all polynomials P_n of x are Lie elements. Suppose that every non-zero
-element of S has a polynomial P_n that is not a Lie element. Then x is zero or not in S. Hence N is greater
-than d.
+these terms has the form sum_n ad_(P_n) q_n with polynomials P_n. Here ad_(P) is the operator that results
+from P if each letter q is replaced by the operator ad_q: x -> [q, x]. Let S be the space that these sums
+span, and d the dimension of S. Consider the first bracket with new letters that the program computes. Let x
+be the sum of those terms of the bracket that contain exactly one new letter. The factors of the bracket
+contain no other brackets with new letters. Hence all polynomials P_n of x are Lie elements. Suppose that
+every non-zero element of S has a polynomial P_n that is not a Lie element. Then x is zero or not in S. Form
+such a sum for each of the N brackets. If x is zero, the other N - 1 sums must span S. If x is not in S, the N
+sums must span a space that contains x and S. In both cases, N is greater than d.
 
 The bound for all brackets is the sum of two bounds: for the brackets with new letters, and for the brackets
 without new letters.
@@ -31,10 +33,10 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return the factors P_n of a combination x of brackets, for all n >= ``first``.
+    """Return a map from n >= ``first`` to the polynomial P_n. The module docstring defines ad_(P_n).
 
-    The terms of x with exactly one letter of index at least ``first`` add up to ``sum_n ad_(P_n) q_n``, where
-    q_n is the letter with index n.
+    The polynomial x is a sum of letters and brackets. The terms of the brackets with exactly one letter of
+    index at least ``first`` add up to ``sum_n ad_(P_n) q_n``. Here q_n is the letter with index n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -72,8 +74,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the exponential of
     the step.
 
-    The function ignores terms of the largest grade of the algebra in u_1, ..., u_s, because they do not
-    change the order of the method.
+    The order of the method depends on terms of the largest grade of the algebra only in u. Therefore the
+    function ignores these terms in u_1, ..., u_s.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -83,7 +85,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Only the argument of the step has terms of the largest grade.
+        # Terms of the largest grade are needed only in the argument of the step.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

@@ -52,7 +52,7 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
     """Yield programs in which a multiple of one bracket has been added to a later bracket with the same left
     factor.
 
-    The multiple is chosen so that a term vanishes.
+    Each multiple is chosen so that one term of the program vanishes.
     """
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]

@@ -1,7 +1,7 @@
 """The Lie-Butcher series of a step in which the arguments of exponentials contain brackets.
 
-The first letter of a word acts first. In the product x y, the factor y acts first, so the letters of y
-precede the letters of x in a word.
+The first letter of a word acts first. In the product x y of two series, the factor y acts first. Hence each
+word of the product begins with a word of y.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from orderconds.trees.levels import Forest, branches
 
 
 class BracketedSeries:
-    """The Lie-Butcher series of one step of a :class:`BracketProgram`. A call returns the coefficient of an
-    ordered forest, an element of ``ring``.
+    """The Lie-Butcher series of one step of a :class:`BracketProgram`, with coefficients in ``ring``. A call
+    returns the coefficient of an ordered forest.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.brackets import fewest_brackets

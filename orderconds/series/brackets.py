@@ -2,9 +2,10 @@
 simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
-step size. Let q_j be k_j plus the combination of earlier stage values that gives the highest grade. A method
-of order p requires the arguments of the stages up to grade p - 1, and the argument of the step up to grade p
-(Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
+step size. Let q_j be the sum of k_j and a combination of earlier stage values. This combination is chosen so
+that q_j has the highest possible grade. A method of order p requires the arguments of the stages up to grade
+p - 1, and the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999)
+957; Casas and Owren, BIT 43 (2003) 723).
 
 The arguments are then expressed one after another by stage values, earlier brackets and new brackets. A
 search finds expressions with few new brackets. If a linear combination of two arguments needs fewer brackets
@@ -78,9 +79,11 @@ def fewest_brackets(
     explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must have division and decide whether an element is
-    zero. The first search sets free coefficients to zero; ``attempts`` further searches use small
-    pseudorandom numbers. If all searches fail, one more bracket is allowed, and the searches are repeated.
-    Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+    zero. The function searches for a program with a limited number of brackets. The equations for the
+    coefficients of the program may have several solutions. In the first search, the free coefficients are
+    zero; ``attempts`` further searches use small pseudorandom numbers. If all searches fail, one more bracket
+    is allowed, and the searches are repeated. Raises :class:`~orderconds.errors.InputError` for an implicit
+    tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -121,8 +124,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair for each j: the grade of q_j, and the coefficients of k_1, ..., k_j in q_j. The module
-    docstring defines the linear combination q_j of stage values."""
+    """Return a pair (grade, coefficients) for each combination q_j of the module docstring. The second entry
+    contains the coefficients of the stage values k_1, ..., k_j in q_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -162,11 +165,12 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations u_j + c u_i that the program computes before u_i.
+    """Return, for each stage i, the combinations of arguments that the program computes before u_i.
 
-    Here u_i and u_j are the arguments of stages i and j with j > i. A combination is returned if it needs
-    fewer brackets than each of the two arguments. A linear term of u_j is omitted if its letter is not yet
-    known when u_i is computed.
+    A combination has the form u_j - c u_i, where c is a number, and u_i and u_j are the arguments of the
+    stages i and j with j > i. It is returned if a suitable number c makes it simpler than both arguments, so
+    that it needs fewer brackets. A term of u_j that is a single letter is omitted if this letter is computed
+    after u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -184,17 +188,17 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets in an argument. The sum of the brackets is [q_1 + x, y + C_1] + sum_e [e,
-    w_e], where C_n = [q_1, z_n + C_(n+1)].
+    """The shape of the new brackets that are used to express one argument.
 
-    The pool is the list of known elements, and q_1 is its first element. The unknowns x, y, z_n and w_e are
-    linear combinations of elements of the pool.
+    The pool is the list of known elements, and q_1 is its first element. The symbols x, y, z_n and w_e denote
+    unknown linear combinations of elements of the pool.
 
-    - ``outer``: True if the bracket [q_1 + x, y + C_1] occurs.
+    - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
     - ``leading``: True if x may be non-zero. In this case the second pool element has the coefficient one in
       y.
-    - ``inner``: the number of brackets C_n.
-    - ``extra``: the indices of the pool elements e.
+    - ``inner``: the number k of nested brackets C_n = [q_1, z_n + C_(n+1)] for n = 1, ..., k. Here C_(k+1) is
+      zero.
+    - ``extra``: the indices of pool elements e. There is one bracket [e, w_e] for each of these elements.
     """
 
     outer: bool = False
@@ -210,7 +214,7 @@ class _Shape:
 
 def _shapes(pool: int) -> Iterator[_Shape]:
     """Yield an infinite sequence of shapes (:class:`_Shape`), in the order of increasing numbers of brackets.
-    The pool contains ``pool`` elements."""
+    The number of known elements is ``pool``."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -220,7 +224,8 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program. One argument after another is expressed by known elements and new brackets.
+    """A search for a program. The arguments of the exponentials are expressed one after another by known
+    elements and new brackets.
 
     ``pool`` contains a pair (element, row) for each known element. The row contains the coefficients of the
     element as a combination of stage values and brackets. ``most`` is the largest allowed number of brackets.
@@ -267,8 +272,9 @@ class _Search:
         """Express an argument, up to grade ``limit``, by the pool and by new brackets of the given shape.
         Return the row of the argument, or None if no suitable brackets are found.
 
-        The equations for the unknowns are bilinear in the factors x and y of :class:`_Shape`. Each iteration
-        fixes y, or a part of x, and solves the resulting linear equations.
+        The equations contain products of the unknowns x and y of :class:`_Shape`. In these products, each
+        iteration replaces y, or some coefficients of x, by known values. Then it solves the resulting linear
+        equations.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -338,7 +344,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the name of each unknown of a shape, and the coefficient of the unknown in the argument."""
+        """Return a pair (name, polynomial) for each unknown number in the expression of the argument. The
+        linear equations contain the product of the unknown number and the polynomial."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -359,9 +366,9 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape, with the given values of the unknowns, to the pool. Return three
-        values: the row of the resulting argument, the argument as a polynomial, and the linear combination y
-        in the bracket [q_1 + x, y + C_1] of the shape (see :class:`_Shape`)."""
+        """Add the new brackets of a shape to the pool. ``numbers`` contains the values of the unknowns.
+        Return three values: the row of the resulting argument, the argument as a polynomial, and the linear
+        combination y that :class:`_Shape` defines."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
