@@ -82,8 +82,11 @@ class Unknown(MatrixFormula):
 
 @dataclass(frozen=True, eq=False)
 class Constant(MatrixFormula):
-    """A constant matrix, given either by a map from the offsets of some diagonals to their entries, or by all
-    entries."""
+    """A constant matrix.
+
+    If ``diagonals`` is not None, it maps the offset of each diagonal to the entries of this diagonal.
+    Otherwise ``entries`` contains all entries of the matrix.
+    """
 
     rows: int
     columns: int

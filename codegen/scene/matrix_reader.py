@@ -1,9 +1,9 @@
 """Translation of formulas of matrices (:mod:`codegen.scene.matrix_formula`) into array programs.
 
-A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in its cheapest order, which
-forms no matrix with n^2 entries, where n is the number of rows of the unknown X. Equal products are computed
-once. Matrices with more columns than rows are stored as their transposes, so each stored matrix has n rows or
-is small.
+A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in the order that needs the
+fewest multiplications. If the unknown X has n rows and few columns, this order avoids matrices with n rows
+and n columns. Equal products are computed once. Matrices with more columns than rows are stored as their
+transposes.
 """
 
 from __future__ import annotations
@@ -93,8 +93,8 @@ Summand = tuple[Expr, tuple[_Factor, ...]]
 def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
     """Return the program that computes a formula in the unknown ``x``.
 
-    :class:`SceneError` is raised for an unknown other than ``x``, for wrong sizes, for entries that cannot be
-    read, and for a summand that does not contain ``x``.
+    :class:`SceneError` is raised for an unknown other than ``x``, for a formula whose size is not that
+    of ``x``, for entries that cannot be read, and for a summand that does not contain ``x``.
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
@@ -145,11 +145,11 @@ class _Compiler:
 
     @property
     def argument(self) -> Matrix:
-        """The matrix X."""
+        """The array of the program that contains the unknown matrix X."""
         return Matrix(ARGUMENT, self.x.rows, self.x.columns)
 
     def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
-        """Yield the products whose sum is c F. F is the formula, or its transpose if ``transposed``."""
+        """Yield products whose sum is c F. F is ``formula``, or its transpose if ``transposed`` is True."""
         match formula:
             case Scaled(factor=factor, matrix=matrix):
                 own = self.reader.scalar(factor, "a coefficient of the velocity")
@@ -176,7 +176,10 @@ class _Compiler:
         return _Factor(formula, transposed)
 
     def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
-        """Return the coefficient and the factors of a product."""
+        """Return the coefficient and the factors of a formula, or of its transpose if ``transposed`` is True.
+
+        A formula that is not a product has one factor.
+        """
         match formula:
             case Times(left=left, right=right):
                 (a, first), (b, second) = (self.factors(part, transposed) for part in (left, right))
@@ -190,11 +193,11 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Yield the summands of c times a product, where c is a coefficient.
+        """Multiply out sums among the factors of a product. Yield the resulting products, multiplied by c.
 
-        Let k be the number of columns of the unknown X. A factor that is a sum is multiplied out in two
-        cases: a term of the sum is a constant matrix, or the sum has more than k rows and more than k
-        columns. Other sums stay factors.
+        Let k be the number of columns of the unknown X. A sum is multiplied out if one of its terms is a
+        constant matrix. A sum with more than k rows and more than k columns is also multiplied out. Other
+        sums stay factors.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -207,7 +210,7 @@ class _Compiler:
         yield c, factors
 
     def total(self, summands: tuple[Summand, ...], rows: int, columns: int) -> _Stored:
-        """Return the matrix that stores the sum of the products."""
+        """Return the stored sum of the summands, a matrix with the given numbers of rows and columns."""
         values = [(c, self.product(factors)) for c, factors in summands]
         if len(values) == 1 and values[0][0] is self.reader.space.one:
             return values[0][1]
@@ -264,8 +267,8 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # Let C be the constant matrix. If the product C Z^T is needed, but the program has stored Z, it
-        # computes Z C^T. The result is the transpose of the product: Z C^T = (C Z^T)^T.
+        # For example, let C be the constant matrix, let Z be a stored matrix, and let C Z^T be needed. The
+        # program then computes Z C^T, which is the transpose of C Z^T.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -288,8 +291,8 @@ class _Compiler:
         return _Stored(target)
 
     def constant(self, given: Constant, *, transposed: bool = False) -> ConstantMatrix:
-        """Read the entries of a constant matrix, and return the matrix or its transpose for the array
-        program."""
+        """Return a constant matrix in the form that array programs use. If ``transposed`` is True, return its
+        transpose."""
         key = id(given), transposed
         if key not in self.constants:
             name = f"matrix_{len(self.constants) + 1}"
@@ -332,7 +335,10 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 
 
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
-    """Return the number of scalar multiplications for the product of two matrices, given by their factors.
+    """Return the number of scalar multiplications for the product of two matrices.
+
+    The first matrix is the product of the factors in ``left``, and the second matrix is the product of the
+    factors in ``right``.
 
     Return infinity if both matrices are constant, because the program does not multiply constant matrices.
     """
@@ -356,7 +362,8 @@ def _filled(constant: Constant) -> float:
 def _transposed(given: Constant) -> Constant:
     """Return the transpose of a constant matrix."""
     if given.diagonals is not None:
-        # The list of the entries of a diagonal has the same order in the transpose.
+        # A diagonal and the corresponding diagonal of the transpose have the same entries in the same order.
+        # A list of entries therefore stays unchanged.
         diagonals = {-offset: _shifted(entry, offset) for offset, entry in given.diagonals.items()}
         return Constant(given.columns, given.rows, diagonals, None)
     entries = given.entries
@@ -371,8 +378,10 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of a diagonal of the transpose. If ``entry`` is a function of the row, the result is
-    the function i -> ``entry(i - offset)``.
+    """Return the entries of a diagonal of A^T, where A is a matrix.
+
+    ``entry`` contains the entries a_{i, i + offset} of A. If ``entry`` is a function of the row i, the result
+    is the function i -> ``entry(i - offset)``. Otherwise the result is ``entry``.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 

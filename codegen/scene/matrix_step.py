@@ -1,10 +1,11 @@
-"""Methods that a scene defines by a formula: y1 = M y0, where the matrix M is a formula in A(t + c h) and h.
+"""Methods y1 = M y0 for the equation y' = A(t) y, where the scene defines the matrix M by a formula.
 
-A formula is formed from :func:`A`, :data:`IDENTITY`, :data:`h` and numbers by sums, products and the
-functions :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an
-element of the Lie algebra, an element of the group, or another matrix. The group computes the exponential of
-an algebra element. All logarithms and all other exponentials are computed by closed forms. These closed forms
-exist only for 2 x 2 matrices, so formulas for larger matrices must not need them.
+M is a formula in the step size h and in matrices A(t + c h), where c is a number. A formula is formed
+from :func:`A`, :data:`IDENTITY`, :data:`h` and numbers by sums, products and the functions :func:`bracket`,
+:func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the Lie algebra, an
+element of the group, or another matrix. The group computes the exponential of an algebra element. All
+logarithms and all other exponentials are computed by closed forms. The closed forms exist only for 2 x 2
+matrices. A formula for larger matrices is rejected if it needs a closed form.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -30,7 +31,7 @@ from codegen.ir.domain import Domain, FloatDomain
 
 
 class Place(Enum):
-    """A set that contains all values of a formula: the Lie algebra, the group, or the set of all matrices."""
+    """A set that contains the values of a formula: the Lie algebra, the group, or all square matrices."""
 
     ALGEBRA = "algebra"
     GROUP = "group"
@@ -39,7 +40,10 @@ class Place(Enum):
 
 @dataclass(frozen=True)
 class Evaluation(Generic[S]):
-    """The data for evaluating a formula: the group, the number domain and the function c -> A(t + c h)."""
+    """The data for evaluating a formula in a step from t to t + h.
+
+    ``generator`` is the function that maps c to the components of A(t + c h) in the basis of the Lie algebra.
+    """
 
     group: MatrixElements
     domain: Domain
@@ -123,13 +127,13 @@ class MatrixFormula(ABC):
 
 @dataclass(frozen=True)
 class Generator(MatrixFormula):
-    """The matrix A(t + c h)."""
+    """The matrix A(t + c h) for a step from t to t + h. The equation is y' = A(t) y."""
 
     c: Fraction
 
     @property
     def place(self) -> Place:
-        """ALGEBRA, because A(t + c h) is an element of the Lie algebra."""
+        """ALGEBRA, because the matrix A of the equation y' = A(t) y is in the Lie algebra at all times."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -162,7 +166,7 @@ class Unit(MatrixFormula):
 
 @dataclass(frozen=True)
 class Binary(MatrixFormula):
-    """A formula with two operands, which are formulas of matrices."""
+    """A formula with two operands: the formulas ``left`` and ``right``."""
 
     left: MatrixFormula
     right: MatrixFormula
@@ -229,7 +233,7 @@ class Commutator(Binary):
 
 @dataclass(frozen=True)
 class Unary(MatrixFormula):
-    """A formula with one operand, which is a formula of a matrix."""
+    """A formula with one operand: the formula ``of``."""
 
     of: MatrixFormula
 
@@ -267,9 +271,10 @@ class Multiple(MatrixFormula):
 
 
 class Projected(Unary):
-    """The orthogonal projection of a matrix onto the algebra, for the scalar product tr(X^T Y).
+    """The orthogonal projection of a matrix onto the Lie algebra, for the scalar product tr(X^T Y).
 
-    For sp(2n) the projection of X is (X + J X^T J)/2, as in equation (4.18) of H. Marthinsen's thesis.
+    For sp(2n) the projection of X is (X + J X^T J)/2, as in equation (4.18) of H. Marthinsen's thesis. J is
+    the matrix (0, I; -I, 0), where I is the n x n unit matrix.
     """
 
     @property
@@ -305,8 +310,8 @@ class Exponential(Unary):
     def closed_forms(self) -> Iterator[MatrixFormula]:
         """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        If the argument of this exponential is in the algebra, the group computes the exponential. Otherwise
-        a closed form is needed.
+        This formula is the exponential of a matrix X. If the type of X is ALGEBRA, the group computes the
+        exponential. Otherwise a closed form is needed.
         """
         if self.of.place is not Place.ALGEBRA:
             yield self
@@ -329,11 +334,14 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """MATRIX. The type of the argument does not show whether its logarithm is in the Lie algebra."""
+        """MATRIX, because the types of formulas do not show whether a logarithm is in the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, and the functions in its argument that are computed by closed forms."""
+        """Yield this logarithm, and all functions in its argument that are computed by closed forms.
+
+        These functions are exponentials and logarithms.
+        """
         yield self
         yield from super().closed_forms()
 
@@ -351,7 +359,7 @@ IDENTITY = Unit()
 
 
 def A(c: int | Fraction = 0) -> MatrixFormula:
-    """Return the matrix A(t + c h)."""
+    """Return the matrix A(t + c h) for a step from t to t + h. The equation is y' = A(t) y."""
     return Generator(Fraction(c))
 
 
@@ -379,7 +387,7 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 class MatrixStep:
     """A method that the scene defines: y1 = M y0, where M is the value of ``formula``.
 
-    ``order`` is the order of the method. The scene gives this number.
+    ``order`` is the order of the method, as stated by the scene.
     """
 
     formula: MatrixFormula
@@ -387,13 +395,13 @@ class MatrixStep:
 
     @property
     def canonical(self) -> bool:
-        """True if the type of the formula shows that M is in the group whenever A is in the Lie algebra."""
+        """True if the type of the formula is GROUP. Then the matrix M of each step is in the group."""
         return self.formula.place is Place.GROUP
 
 
 @lru_cache(maxsize=16)
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
-    """Return the matrix of the orthogonal projection onto the algebra.
+    """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
     For n x n matrices the result has n^2 rows and columns. The result acts on the column that contains the
     entries of a matrix row by row.

@@ -37,7 +37,7 @@ def with_frame(problem: Problem, frame: str) -> Problem:
 
 
 def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state, with the momentum in the frame in which emitted code accepts it."""
+    """Return the initial state. Its momentum is in the frame that emitted code uses for its arguments."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
     if scene.body_group is None:

@@ -1,9 +1,9 @@
 """The operations of steps that a group, an action or a coordinate map implements.
 
 A step of a method is a list of operations, such as ``exp`` and ``mul``. Each table of this module maps the
-names of operations to functions. :mod:`codegen.ir.operations` describes the arguments. Some groups lack some
-operations, such as the Cayley map. An operation that the group lacks raises
-:class:`codegen.errors.SceneError`.
+names of operations to functions. :mod:`codegen.ir.operations` describes the arguments. Not every group
+implements all operations; for example, some groups have no Cayley map. If a group does not implement an
+operation, the call of the operation raises :class:`codegen.errors.SceneError`.
 """
 
 from __future__ import annotations

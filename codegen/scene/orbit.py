@@ -27,13 +27,14 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""The allowed rounding error of a sum, relative to the size of its terms. This bound is much larger than the
-unit roundoff, because the terms may contain cancellation errors.
+"""A sum counts as zero if its absolute value is at most TOLERANCE times the sum of the absolute values of its
+terms, plus FLOOR. TOLERANCE is much larger than the unit roundoff, because the terms may contain cancellation
+errors.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The allowed absolute error. A relative bound alone would fail if every term is a small difference of nearly
-equal numbers."""
+"""The absolute error that is allowed in addition to TOLERANCE. It is needed if all terms of a sum are small
+differences of nearly equal numbers, because the relative errors of such differences may be large."""
 
 POINTS = 4
 """The number of sample points: the initial state, and three random points of its orbit."""
@@ -41,10 +42,10 @@ POINTS = 4
 
 @dataclass(frozen=True)
 class Orbit:
-    """A problem in the form of a field, with the sample points at which formulas are compared.
+    """A problem y' = f(y).y, with the sample points at which formulas are compared.
 
-    ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
-    The group of a Hamiltonian problem is T*G, which acts on itself.
+    ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f. A
+    Hamiltonian problem is written as an equation on the group T*G, which acts on itself by multiplication.
     """
 
     name: str
@@ -85,7 +86,7 @@ class Orbit:
                 raise SceneError(
                     "f at the initial state is not a finite real number",
                     where=self.name,
-                    expected="an initial state where the field is smooth",
+                    expected="an initial state where f is smooth",
                 )
         return tuple(points)
 
@@ -136,7 +137,7 @@ class Orbit:
 
 
 def orbit_of(problem: Problem) -> Orbit:
-    """Return the sample points on the orbit of a problem's initial state, with the formulas of its field."""
+    """Return the :class:`Orbit` of a problem, with the formulas of f and the sample points."""
     field = problem.as_field()
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(

@@ -14,14 +14,14 @@ from codegen.ir.domain import FloatDomain
 from codegen.scene.problem import Problem
 
 DISPLACEMENT = 1e-4
-"""The distance between the orbit and the points that the test projects."""
+"""The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The largest ratio of two displacements for which the test is passed.
+"""The allowed distance from the orbit after a projection, divided by the distance before the projection.
 
-The test displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and projects the displaced
-point. The test is passed if the perpendicular displacement is then at most REDUCED * DISPLACEMENT. A
-projection onto the orbit passes, because it leaves only a displacement of about DISPLACEMENT^2.
+The test :func:`reaches_orbit` displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and
+projects the displaced point. After a projection onto the orbit, the perpendicular displacement is only about
+DISPLACEMENT^2. The test allows REDUCED * DISPLACEMENT.
 """
 
 INDEPENDENT = 1e-8

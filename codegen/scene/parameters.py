@@ -1,4 +1,7 @@
-"""Parameters and signals of scenes: sympy symbols with a rational default, or with a formula in time."""
+"""Parameters and signals of scenes, which are sympy symbols.
+
+A parameter has a rational default value. A signal has a default formula in the time and in parameters.
+"""
 
 from __future__ import annotations
 

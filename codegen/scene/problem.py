@@ -55,7 +55,7 @@ TIME = "t"
 
 @dataclass(frozen=True)
 class StateField:
-    """A block of the state: its name, kind, coordinates, and initial value as expressions."""
+    """A block of the state: its name, its kind, its coordinates, and expressions for their initial values."""
 
     name: str
     kind: Kind
@@ -67,19 +67,23 @@ class StateField:
 class Problem:
     """A scene in the form that step programs evaluate: group, action, state, and a field or a Hamiltonian.
 
-    - ``roots``: the components of f (field scenes) or of xi and n (Hamiltonian scenes), as expressions in the
-      coordinates, the parameters and ``t``. Large matrices and semilinear equations have no ``roots``.
+    The equation of a field scene is y' = f(y).y. The equations of a Hamiltonian scene are q' = xi.q and
+    mu' = n - ad*_xi mu.
+
+    - ``roots``: the components of f, or of xi and n, as expressions in the coordinates, the parameters and
+      ``t``. Large matrices and semilinear equations have no ``roots``.
     - ``paired``: True if the state is (q, mu).
     - ``parts``: named summands of the Hamiltonian.
     - ``flows``: for each part, the exact flow that splitting methods compose.
-    - ``stated``: (q, mu) after the time tau, for each part whose flow the scene gives by formulas.
+    - ``stated``: for each part whose flow the scene gives by formulas, the formulas for (q, mu) after the
+      time tau.
     - ``runtime``: the parameters that stay inputs of emitted code.
     - ``fixed``: the names and values of parameters whose default value has been replaced.
     - ``open_roots``: ``roots`` with the symbols of ``signals`` in place of their formulas.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group, if emitted code reads and returns momenta in the body frame.
-    - ``evolution``: the coordinates for steps of Taylor's method.
+    - ``evolution``: the coordinates in which Taylor's method computes a step.
     - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
     - ``matrices``: the field, if it is given by formulas of matrices (:mod:`codegen.scene.matrix_formula`).
@@ -133,8 +137,7 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        On a lattice, the result is True only if the states outside an open boundary are also independent of
-        the time and of such signals.
+        On a lattice, the states outside an open boundary must also be independent of the time.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
@@ -146,10 +149,12 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time. On a
-        lattice, the result is True only if the field of a site is also independent of the states of
-        neighbours."""
-        # If the field is given by formulas of matrices, ``roots`` may be empty.
+        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time.
+
+        On a lattice, the field of a site must also be independent of the states of neighbours.
+        """
+        # If the field is given by formulas of matrices, ``roots`` may be empty. The test of ``roots`` at the
+        # end of this function would then return True for every field.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -159,11 +164,15 @@ class Problem:
 
     @property
     def is_hamiltonian(self) -> bool:
-        """True if the state is (q, mu). Step programs then compute (xi, n) by the operation ``hamilton``."""
+        """True if the state is (q, mu).
+
+        The operation ``hamilton`` of step programs then computes the pair (xi, n) of the equations q' = xi.q
+        and mu' = n - ad*_xi mu.
+        """
         return self.paired
 
     def dimension(self) -> int:
-        """Return the dimension of the Lie algebra."""
+        """Return the dimension of the Lie algebra of the group."""
         return self.group.dim
 
     def require_formulas(self) -> None:
@@ -188,9 +197,10 @@ class Problem:
             )
 
     def as_field(self) -> Problem:
-        """Return this problem as the field f = (xi, n) of the group T*G, which acts on itself.
+        """Return a Hamiltonian problem with the state y = (q, mu), written as y' = f(y).y with f = (xi, n).
 
-        If the state is not (q, mu), the problem is returned unchanged.
+        The group of the result is T*G, which acts on itself by left multiplication. A problem with any other
+        state is returned unchanged.
         """
         if not self.paired:
             return self
@@ -264,7 +274,7 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return F v, where F is the product of the functions of ad_x that ``word`` lists.
+        """Return F v, where F is a product of functions of ad_x. ``word`` contains the factors of F.
 
         If ``dual`` is true, ad*_x replaces ad_x.
         """
@@ -279,8 +289,8 @@ class Problem:
     def body(self) -> BodyField | None:
         """The field in the body frame, or None.
 
-        The value is None if there is no Hamiltonian, if the group has no body frame, if signals are read at
-        run time, or if ``forced`` is true.
+        The value is None in four cases: the problem has no Hamiltonian, the group has no body frame, signals
+        are read at run time, or there is a force that is not a derivative of the Hamiltonian.
         """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
@@ -297,7 +307,10 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return the field of the problem: f for an equation y' = f(y).y, or (xi, n) for a state (q, mu).
+        """Return the field of the problem.
+
+        The field is f for an equation y' = f(y).y. If the state is (q, mu), the field is the pair (xi, n) of
+        the equations q' = xi.q and mu' = n - ad*_xi mu.
 
         ``args`` contains the blocks of the state, and possibly the time as the last entry.
         """
@@ -305,8 +318,8 @@ class Problem:
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # An ExprDomain forms the formulas of emitted code. There the inputs are symbols, because the
-            # caller of emitted code passes their values at the stage times.
+            # An ExprDomain forms the formulas of emitted code. These contain the signals in ``inputs`` as
+            # symbols, because the caller of emitted code passes the values of the signals at the stage times.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])
@@ -353,7 +366,7 @@ class Problem:
     def invariant(self, domain: Domain, name: str, state: Sequence[S], t: S | None = None) -> S:
         """Return the value of a declared invariant at a state and a time.
 
-        The invariant ``energy`` is the Hamiltonian if the problem has one.
+        If the problem has a Hamiltonian, the invariant ``energy`` is the Hamiltonian.
         """
         value: S = evaluate([self.invariants[name]], domain, self.values(domain, state, t))[0]
         return value

@@ -43,7 +43,7 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
         problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
     )
     if fixed:
-        # On a lattice, formulas are compared on one site whose neighbours do not move.
+        # On a lattice, the formulas of the scene are checked at one site. Its neighbours have fixed states.
         check_problem(changed if changed.sites is None else with_frozen_neighbours(changed), {})
     return changed
 

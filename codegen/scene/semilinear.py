@@ -14,8 +14,10 @@ from codegen.ir.number import Number
 from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
-"""The number of brackets after which the model problem truncates the series of dexp^{-1}. The product of h
-and the eigenvalue of the model is below 1/4, so the omitted terms are below (8 pi)^-21 = 4e-30.
+"""The number of brackets after which the model problem truncates the series of dexp^{-1}.
+
+The coefficient of order k of this series decreases like (2 pi)^-k. The step size times the eigenvalue of the
+model is below 1/4 in absolute value. The omitted terms are therefore below (8 pi)^-21 = 4e-30.
 """
 
 
@@ -30,10 +32,10 @@ class Semilinear:
     - ``initial``: the initial state as a formula in x.
     - ``formulas``: pointwise formulas that may contain u and derivatives of u.
     - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
-    - ``outer``: the order m_i of a derivative for each formula i. N is the sum over i of the derivative of
-      order m_i of formula i.
-    - ``kept``: the fraction of the Fourier modes of N that are not replaced by zero. The modes with the
-      highest wave numbers are replaced.
+    - ``outer``: for each formula i, the order m_i with which the formula is differentiated with respect to x.
+      N is the sum of these derivatives.
+    - ``kept``: the fraction of the Fourier modes of N that are kept. The modes with the highest wave numbers
+      are replaced by zero.
     - ``timed``: True if N depends on the time.
     """
 
@@ -57,15 +59,15 @@ class Semilinear:
 class ExactExponential(CoordinateMap):
     """The exponential map of the group of affine maps, with its exact inverse differential.
 
-    Emitted code uses the closed form (:mod:`codegen.kernel.mode_kernel`). The model problem
-    (:func:`model_of`) uses the series, truncated after :data:`TERMS` brackets.
+    Emitted code computes the inverse differential by a closed form (:mod:`codegen.kernel.mode_kernel`). For
+    the model problem (:func:`model_of`), a series of :data:`TERMS` brackets is computed.
     """
 
     name = "exp"
     text = "exponential map, with its exact inverse differential in closed form"
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Do nothing: every group has the exponential map."""
+        """Accept every group, because every group has the exponential map."""
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
         """Return exp(x)."""

@@ -33,8 +33,7 @@ A product of two kept modes has no alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
-"""Wave numbers k for a test. The Fourier symbol of L must have complex conjugate values at k and -k."""
-
+"""The wave numbers k for a test of L. Its Fourier symbol must have complex conjugate values at k and -k."""
 
 DIGITS_OF_PI = 60
 """The number of digits of the rational number that replaces pi in formulas."""
@@ -59,9 +58,9 @@ def SemilinearScene(
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters. It may be complex; for example, the factor of d/dx is I*k.
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m), where g may contain the same quantities. The factor c must not depend on ``u`` and ``x``.
+      c Dx(g, m), where g is a formula in the same symbols. The factor c must not depend on ``u`` and ``x``.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
-    - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero. True means 2/3.
+    - ``dealias``: the fraction of the Fourier modes of N that are kept. True means 2/3, False means 1.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps
@@ -185,7 +184,7 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Return a formula as an expression. The formula may contain the symbols in ``more``, t and
+        """Convert a sympy formula to an expression. The formula may contain the symbols in ``more``, t and
         parameters.
 
         SceneError is raised for a derivative, and for a choice between formulas such as Piecewise or Max.
@@ -212,7 +211,7 @@ class _Parser:
         return root
 
     def constant(self, formula: sympy.Expr, what: str) -> Expr:
-        """Return a formula that may contain only parameters, as an expression."""
+        """Convert a sympy formula to an expression. The formula may contain only parameters."""
         return self.reader.scalar(_with_digits(self._sympified(formula, what)), what, constant=True)
 
     def _sympified(self, formula: object, what: str) -> sympy.Expr:
@@ -237,7 +236,7 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return the fraction of the Fourier modes of the nonlinear term that are not replaced by zero."""
+    """Return the fraction of the Fourier modes of the nonlinear term that are kept."""
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)

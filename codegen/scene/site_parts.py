@@ -3,8 +3,10 @@ interaction of pairs of neighbours.
 
 A part is given by an element f(y) of the Lie algebra. The generators of the part are formulas for the
 components of f(y). The velocity of a site is the sum of the velocities f(y).y of all parts. If the generators
-of a part are constant along the solutions of this part alone, the exact flow of the part is y -> exp(tau
-f(y)).y. The flows of two pairs commute if the pairs share no site. The pairs along an axis of the lattice are
+of a part are constant along the solutions of this part alone, the exact flow of the part over a time tau is
+y -> exp(tau f(y)).y.
+
+The flows of two pairs commute if the pairs share no site. The pairs along an axis of the lattice are
 therefore divided into two sets. The first site of each pair has an even index in one set, and an odd index in
 the other set.
 """
@@ -82,8 +84,9 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
     """Raise SceneError if a part of the field depends on time or has no exact flow, or if the parts do not
     add up to the field.
 
-    The generators of a part must be constant along the flow of the part. The sum of the velocities of all
-    parts must be equal to the velocity of the field.
+    The generators of a part are the components of the part, which is an element of the Lie algebra. They must
+    be constant along the flow of the part. The sum of the velocities of all parts must be equal to the
+    velocity of the field.
 
     ``orbit`` contains the sample points of one site.
     """
@@ -96,8 +99,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
             )
         if part.axis >= sites.dimension:
             raise SceneError(
-                f"the offset of the part {part.name} has a length that differs from the dimension of the "
-                "lattice",
+                f"the offset of the part {part.name} has more entries than the lattice has dimensions",
                 where=scene.name,
                 expected=f"an offset with {sites.dimension} entries",
             )
@@ -130,15 +132,18 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                 raise SceneError(
                     f"generator {k} of the part {part.name} is not constant along the flow of the part",
                     where=scene.name,
-                    expected="generators for which exp(tau f(y)).y is the exact flow",
-                    hint="split the part, or write the same velocity with other generators; for spins, write "
-                    "J (S + S') in place of J S'",
+                    expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
+                    hint="split the part, or write the same velocity with other generators; for spins S "
+                    "and S' with the coupling J, write J (S + S') in place of J S'",
                 )
 
 
 def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols at a sample point. The symbols in ``partner`` are the coordinates of a
-    neighbour; their values are the state at the next sample point."""
+    """Return the values of all symbols for a site and one of its neighbours.
+
+    The site has the state of sample point ``number``, and the neighbour has the state of the next sample
+    point. ``partner`` contains the symbols of the neighbour's coordinates.
+    """
     point = dict(orbit.points[number])
     other = orbit.points[(number + 1) % len(orbit.points)]
     return point | {s: other[own] for s, own in zip(partner, scene.symbols, strict=bool(partner))}
@@ -147,8 +152,8 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
     """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field.
 
-    At an open boundary some neighbours do not exist. The test is therefore repeated with one neighbour
-    omitted, for each neighbour, and with all neighbours omitted.
+    At an open boundary some neighbours do not exist. The test is therefore repeated without each
+    neighbour in turn, and then without all neighbours.
     """
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
@@ -174,8 +179,8 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                         f"the parts add up to the velocity {orbit.text(x)}{where}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of f",
-                        hint='list all terms of f in the argument "parts"; a pair needs the generators of '
-                        "both sites",
+                        hint='list all terms of f in the argument "parts"; give the generators of both sites '
+                        "in each Pair",
                     )
 
 
@@ -190,8 +195,11 @@ def _with_outside(
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
     absent: frozenset[Offset],
 ) -> dict[str, mpmath.mpf]:
-    """Return the values of all symbols of the field at a site. The neighbours with the offsets ``absent`` are
-    outside the lattice."""
+    """Return the values of all symbols in the field of a site.
+
+    The neighbours with the offsets ``absent`` are outside the lattice. Their states are computed by the
+    formulas in the argument ``outside`` of the scene.
+    """
     values = dict(point)
     for k, offset in enumerate(sites.offsets):
         column = list(states[offset].values())
@@ -208,7 +216,9 @@ def _summed(
     point: Mapping[str, mpmath.mpf],
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
 ) -> list[mpmath.mpf]:
-    """Return the velocity of a site: the sum over all local parts and all pairs with existing neighbours."""
+    """Return the velocity of a site: the sum of the velocities of all local parts, and of all pairs that the
+    site forms with its neighbours. ``states`` contains only the neighbours that exist.
+    """
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)
     dim = scene.group.dim

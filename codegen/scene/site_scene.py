@@ -1,4 +1,7 @@
-"""Site scenes: chains and lattices of equal sites, y_i' = f(y_i, neighbours of y_i).y_i."""
+"""Site scenes: chains and lattices of equal sites with the equations y_i' = f_i.y_i.
+
+The element f_i of the Lie algebra depends on the state y_i of the site i and on the states of its neighbours.
+"""
 
 from __future__ import annotations
 
@@ -63,10 +66,10 @@ def SiteScene(
       ``y``, so that the forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
     - ``parts``: summands of the field. Splittings compose their exact flows. A part is a column of formulas
       in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
-    - ``energy``, ``bonds``: for discrete gradients, the total energy is the sum of ``energy`` over all sites
-      and of ``bonds`` (:class:`Bond`).
+    - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
+      The sum of these energies over the lattice is the total energy, which discrete gradients need.
     - ``invariants``: functions of the state of one site. They must be constant along the solutions at every
-      site, whatever the states of its neighbours are.
+      site, for arbitrary states of the neighbours.
 
     :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
     different lengths, for a missing neighbour without a formula in ``outside``, for parts that do not add up
@@ -97,8 +100,8 @@ def SiteScene(
 
 
 def _check(problem: Problem) -> None:
-    """Raise SceneError if the formulas of the scene are inconsistent, if a part of the field is wrong, or if
-    the total energy is not constant.
+    """Raise SceneError if the formulas of the scene are inconsistent, if the parts do not satisfy the
+    conditions of :func:`check_parts`, or if the total energy is not constant.
     """
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
@@ -110,9 +113,9 @@ def _check(problem: Problem) -> None:
 def _with_energy(
     reader: Reader, sites: Sites, y: Sequence[sympy.Symbol], energy: sympy.Expr | None, bonds: Sequence[Bond]
 ) -> Sites:
-    """Return the lattice ``sites`` with the energies of a site and of its bonds added.
+    """Return the lattice ``sites``, completed by the formulas for the energies of a site and of its bonds.
 
-    SceneError is raised for a bond of sites that the field does not couple.
+    SceneError is raised for a bond with the offset d if the field does not read the neighbours at d and -d.
     """
     if energy is None and not bonds:
         return sites
@@ -122,8 +125,8 @@ def _with_energy(
             raise SceneError(
                 f"a bond with the offset {tuple(bond.offset)}",
                 where=reader.name,
-                expected=f"an offset d such that f reads the neighbours at d and at -d; f reads the offsets "
-                f"{', '.join(map(str, sites.offsets))}",
+                expected=f"an offset d such that f reads the neighbours at d and -d; f reads the neighbours "
+                f"at {', '.join(map(str, sites.offsets))}",
             )
     own = reader.space.zero if energy is None else reader.scalar(energy, "energy")
     shared = energies_of_bonds(reader, y, bonds, sites.offsets)
@@ -144,11 +147,11 @@ def _check_energy(problem: Problem) -> None:
         if not orbit.sized(sum(terms), (*terms, 1)):
             raise SceneError(
                 f"the total energy of {len(whole.state[0].symbols) // len(problem.symbols)} sites has the "
-                f"derivative {orbit.text(sum(terms))}",
+                f"time derivative {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint='at an open boundary, the state in the argument "outside" must be constant or exert no '
-                "force",
+                hint='at an open boundary, the states in the argument "outside" must be constant, or must '
+                "exert no force on the lattice",
             )
 
 
@@ -163,7 +166,8 @@ def with_frozen_neighbours(scene: Problem) -> Problem:
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
     values = dict(scene.parameters)
     for number, column in enumerate(sites.symbols, 1):
-        # The neighbours differ from each other and from the site, so that no difference of states vanishes.
+        # The states of the site and of its neighbours are all different. For equal states, formulas that
+        # contain the difference of two states may be singular, or zero by accident.
         shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
         values |= {
             s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)
@@ -190,7 +194,7 @@ def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> 
     lengths = {len(offset) for offset in offsets}
     if len(lengths) > 1:
         raise SceneError(
-            f"offsets of the lengths {', '.join(map(str, sorted(lengths)))}",
+            f"offsets with different numbers of entries: {', '.join(map(str, sorted(lengths)))}",
             where=name,
             expected="offsets with one entry for each dimension of the lattice",
         )
@@ -232,8 +236,8 @@ def outside_states(
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:
         raise SceneError(
-            f'a state in the argument "outside" for the offset {next(iter(given))}, although the field does '
-            "not read this neighbour",
+            f'a state in the argument "outside" for the neighbour {next(iter(given))}, which the field '
+            "does not read",
             where=reader.name,
             expected=f"the offsets {', '.join(map(str, offsets))}",
         )

@@ -1,4 +1,4 @@
-# 8: f at the initial state is not a finite real number; expected an initial state where the field is smooth
+# 8: f at the initial state is not a finite real number; expected an initial state where f is smooth
 from sympy import Matrix, sqrt, symbols
 
 from codegen.groups import LeftMultiplication, Rn
