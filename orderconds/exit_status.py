@@ -46,7 +46,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """An exception in place of KeyboardInterrupt or BrokenPipeError. ``cause`` is the original exception."""
+    """An exception that replaces KeyboardInterrupt or BrokenPipeError. ``cause`` is the original one."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -114,8 +114,8 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. With ``--json``, also print the error as JSON if no document was
-        printed before.
+        """Print the message of an error. If the option ``--json`` is given and this run has printed no JSON
+        document, print the error as JSON, too.
         """
         with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
             click.echo(f"orderconds: {record['message']}", err=True)

@@ -1,5 +1,5 @@
-"""Packages with fast import. A module of such a package is imported when one of its names is first used (PEP
-562)."""
+"""Packages with fast import. A module of such a package is imported when a name that the module defines is
+first used (PEP 562)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import ModuleType
 
 
 class _LazyPackage(ModuleType):
-    """A package that imports a module when one of the names of the module is first used."""
+    """A package that imports a module when a name that the module defines is first used."""
 
     def __getattr__(self, name: str) -> object:
         homes = self.__dict__["_homes"]
@@ -29,9 +29,9 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Make the modules of a package lazy: each module is imported when one of its names is first used.
+    """Make the modules of a package lazy: each module is imported when a name that it defines is first used.
 
-    ``names`` maps each module of the package to names that the module defines. If an object and a module have
+    ``names`` maps each module of the package to these names. If an object and a module have
     the same name, the package exports the object.
 
     >>> import orderconds

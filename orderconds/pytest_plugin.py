@@ -7,7 +7,8 @@ correspond to options of ``orderconds check``.
 
 Files without a tableau are skipped, and so are tableaux that claim no order. The skipped files and the
 reasons are printed at the end. With ``--orderconds-require-claims``, a tableau that claims no order fails.
-Python modules are parsed and not imported. They are executed only with ``--orderconds-execute``.
+A Python file that contains a tableau is parsed and not imported. It is executed only with
+``--orderconds-execute``.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ import pytest
 FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
-    "--orderconds-complete": "like --orderconds, and require a claim in every family whose order does not "
-    "follow from the order in another family",
+    "--orderconds-complete": "like --orderconds, and require a claimed order in every family, unless it "
+    "follows from the order in another family",
     "--orderconds-certified": "like --orderconds, and require a proof of every order",
     "--orderconds-execute": "like --orderconds, and run Python files to obtain their arrays",
 }
@@ -103,10 +104,10 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 
 
 class NoTests(pytest.File):
-    """A Python module that is not imported and therefore contains no tests for pytest."""
+    """A Python file that contains a tableau. Pytest does not import it and collects no tests from it."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return an empty sequence: no tests are collected from the module."""
+        """Return an empty sequence, because the file contains no tests."""
         return ()
 
 
@@ -149,7 +150,8 @@ class TableauItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Return the position of the test for the report of pytest: the path of the file."""
+        """Return three values for the report of pytest: the path of the file, None for the line number, and
+        a title of the test."""
         return self.path, None, f"orderconds: {self.path.name}"
 
 

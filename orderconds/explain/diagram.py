@@ -6,13 +6,15 @@ Trees of every kind are converted to diagrams and then drawn. The vertices depen
 - a tree of two colours: *black* or *white*.
 - an action tree: *dot* for a derivative of the Hamiltonian, *transport* (``L`` in text drawings) for a
   coadjoint action.
-- a word over an alphabet: *letter*, or *bracket* of two vertices.
+- a word over an alphabet: *letter*, or *bracket* for the Lie bracket of its two branches.
 
 An edge is *plain* or directed. A directed edge points from a derivative in q to a derivative in p or in the
-momentum mu (:mod:`orderconds.trees.directed`). An edge from a parent to its child is *outward* if it points
-to the child. The child is then a velocity (a derivative of H in p or mu), and the coefficient is a_ij. The
-edge is *inward* if it points to the parent. The child is then a coadjoint action or a force (a derivative of
-H in q), and the coefficient is ahat_ij.
+momentum mu (:mod:`orderconds.trees.directed`). There are two kinds of directed edges:
+
+- *outward*: the edge points from the parent to the child. The child is a velocity (a derivative of H in p or
+  mu). In the order condition, the edge is a factor a_ij.
+- *inward*: the edge points from the child to the parent. The child is a coadjoint action or a force (a
+  derivative of H in q). In the order condition, the edge is a factor ahat_ij.
 """
 
 from __future__ import annotations
@@ -48,8 +50,8 @@ class Vertex:
     """A vertex with its branches from left to right. If ``sign`` is "letter", ``label`` is the text of this
     letter.
 
-    At some vertices, the edges of the first n branches and the edge to the parent are ordered. Then ``legs``
-    is a pair (m, n), and the edge to the parent comes after the first m branches. At all other vertices,
+    At some vertices, the first n branches and the edge to the parent form a sequence. Then ``legs`` is a pair
+    (m, n): in the sequence, the edge to the parent comes after the first m branches. At all other vertices,
     ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
@@ -63,7 +65,7 @@ class Vertex:
 
     @property
     def size(self) -> int:
-        """The number of vertices."""
+        """The number of vertices of the tree with this root."""
         return 1 + sum(branch.vertex.size for branch in self.branches)
 
 
@@ -109,8 +111,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 def action(tree: Velocity) -> Diagram:
     """Return the diagram of an action tree.
 
-    An action tree consists of a root, a word of trees, and covectors. The trees of the word are the first
-    branches of the root. The covectors are the remaining branches.
+    The first branches of the root are a word of action trees. The remaining branches are covectors: forces
+    and transports (:mod:`orderconds.series.action_trees`).
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

@@ -2,7 +2,7 @@
 
 Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
 and y. ``f_zy`` is the partial derivative with respect to z and y. A Lyndon word denotes a commutator of
-vector fields.
+vector fields. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -39,8 +39,9 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x y]`` is the derivative x[y[f]] of f along the frozen fields x and y. The operator of a forest is the
-    product of the operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+    ``f[x y]`` is the derivative x[y[f]] of f along the fields x and y. These fields are frozen: in a frame of
+    invariant fields, their components count as constants. The operator of a forest is the product of the
+    operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')
@@ -66,10 +67,10 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 
 
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
-    r"""Return the elementary Hamiltonian of a tree with directed edges, up to its sign.
+    r"""Return the elementary Hamiltonian of a tree with directed edges. The sign is omitted.
 
-    The equations of motion are q' = H_p, p' = -H_q. An edge leads from a derivative in q to a derivative in
-    p.
+    The equations of motion are q' = H_p, p' = -H_q. Each vertex denotes a derivative of H. An edge denotes a
+    derivative in q at the vertex where it begins, and a derivative in p at the vertex to which it points.
 
     >>> directed_hamiltonian(b"\0\3\2")
     'H_pq(H_q, H_p)'
@@ -78,7 +79,8 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 
 
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
-    r"""Return the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
+    r"""Return the elementary Hamiltonian of a tree whose neighbouring vertices have different colours. The
+    sign is omitted (HLW VI.7.2).
 
     The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, a white vertex denotes V.
 
@@ -92,7 +94,7 @@ def bracket(word: Word, name: Callable[[Letter], str]) -> str:
     """Return the text of a word of Lie derivatives. A Lyndon word is written as a commutator, any other word
     as a product.
 
-    The letter that acts first is written first.
+    In a product, the leftmost letter acts first.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

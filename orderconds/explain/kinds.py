@@ -59,11 +59,12 @@ class Kind:
             if self.name in family.illustrates:
                 return family()
         raise UnknownName(
-            f"no family has conditions for the trees {self.name!r}", expected="a registered family"
+            f"no family has conditions for trees of the kind {self.name!r}", expected="a registered family"
         )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
-        """Return a map from each member of the given order to its condition in the family."""
+        """Return a map from each member of the given order to its condition in the family that the method
+        :meth:`family` returns."""
         family = self.family()
         conditions = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in conditions}
@@ -112,9 +113,9 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees that index the conditions of a family.
+    r"""Return the kind of trees or words that index the conditions of a family.
 
-    Return None if words index the conditions, because words have no drawing.
+    Return None if no kind is known for the family, as for the family rkn.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -124,8 +125,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if, for one of the orders 1, ..., ``order``, a family has more than
-    :data:`MAX_TREES` trees.
+    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of one order. The orders from 1
+    to ``order`` are tested.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -146,7 +147,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 def named_by(condition: OrderCondition) -> str:
     """Return the elementary differential or Hamiltonian of the tree of a condition.
 
-    If the conditions of the family are indexed by words, return the word.
+    If no kind of trees is known for the family, return the text of the attribute ``tree`` of the condition.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))

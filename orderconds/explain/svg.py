@@ -113,7 +113,7 @@ def _rows(blocks: Iterable[_Block], width: float) -> Iterator[list[_Block]]:
 
 
 class _Block:
-    """One diagram and its caption, measured in px."""
+    """One diagram and its caption. All lengths are in px."""
 
     def __init__(self, diagram: Diagram, caption: tuple[str, ...]) -> None:
         self.caption = caption
@@ -172,7 +172,7 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
 
 
 def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
-    """Return the SVG path of an edge. The edge ends at the rims of its vertices.
+    """Return the SVG path of an edge. The path ends at the borders of the two vertices, not at their centres.
 
     A directed edge has an arrow head in the middle.
     """

@@ -1,4 +1,4 @@
-r"""Drawings of diagrams as TikZ pictures that fit in a line of formulas, with the root at the bottom.
+r"""Drawings of diagrams as TikZ pictures for use within formulas. The root is at the bottom.
 
 A picture needs the LaTeX package tikz. Pictures of action trees also need the tikz library shapes.geometric.
 """

@@ -1,16 +1,18 @@
 """Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
 Stage i of a variational method on a Lie group has three abscissae. They are c_i for the position q, chat_i
-for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). The
-abscissa m_i is defined by
+for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). Let
+beta_J^i be the coefficient of stage i in the J-th exponential of the update. Let b_i = sum_J beta_J^i be the
+weight of stage i, and y_J = sum_i beta_J^i the sum of the coefficients in the J-th exponential. The abscissa
+m_i is defined by
 
-    1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
+    1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K).
 
-Here b_i is the weight of stage i. The coefficient of stage i in the J-th exponential of the update is
-beta_J^i, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
-... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
-chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
-the three abscissae are equal.
+For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
+
+Let each of x and z be one of the abscissae c, chat and m. Then sum_i b_i x_i z_i = 1/3 is a condition of
+order three. Expansion of the squares gives sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If
+the weights are positive, the three abscissae are equal.
 
 Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
 row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem.
@@ -40,7 +42,8 @@ def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> 
     """Return formulas for the weights b_i, the sums y_J and the abscissae m_i.
 
     Row J of ``update`` contains the coefficients of the J-th exponential of the update. The sum of row J is
-    y_J. ``b`` contains the names of the weights.
+    y_J, and the sum of column i is b_i. The module docstring defines m_i. ``b`` contains the names of the
+    weights.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -63,9 +66,9 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for 2 s - 1 entries of A, where s is the number of stages. The formulas contain the row
-    sums m_i and the other entries. They follow from two equations: sum_j a_ij = m_i and sum_i b_i a_ij = b_j
-    (1 - m_j).
+    """Return formulas for 2 s - 1 entries of A, where s is the number of stages. The formulas contain the
+    abscissae m_i, the weights b_i and the other entries of A. They solve the equations sum_j a_ij = m_i of
+    the rows and the equations sum_i b_i a_ij = b_j (1 - m_j) of the columns.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. All
     other entries are interpreted as edges of a graph: a_ij joins row i and column j. Raises
@@ -105,7 +108,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the free entries a_ij of A, as edges between row i and column j, do not form a connected graph",
+            "if each free entry a_ij of A is an edge between row i and column j, the graph is not connected",
             where=WHERE,
             expected="more free entries",
         )
@@ -123,28 +126,29 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "the free entries a_ij of A, as edges between row i and column j, contain a cycle",
+        "if each free entry a_ij of A is an edge between row i and column j, the graph contains a cycle",
         where=WHERE,
-        expected="free entries that form a tree",
+        expected="a graph without cycles",
     )
 
 
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return formulas for coefficients of a symmetric method with given abscissae.
+    """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    The result contains formulas for some entries of ``own`` and for the constants C_j, which are defined
-    below. The method has s stages (:mod:`orderconds.solve.paths`). Stage i begins with the first ``leave[i]``
-    exponentials of ``update``. Further exponentials follow.
+    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The exponentials that follow are
+    called the own exponentials of stage i (:mod:`orderconds.solve.paths`).
 
-    - ``own`` contains the rows (x_i1, ..., x_is) of the stages before the middle. Here x_ij is the sum of the
-      coefficients of stage j in the further exponentials of stage i.
-    - ``middle`` is the row of the middle stage. If s is even, ``middle`` is empty.
+    - ``own`` contains a row (x_i1, ..., x_is) for each stage i in the first half of the stages. The entry
+      x_ij is the sum of the coefficients of stage j in the own exponentials of stage i.
+    - ``middle`` is the same row for the middle stage. If s is even, ``middle`` is empty.
 
-    Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, with the weights b_i and a
-    constant C_j that does not depend on ``own``. The equation of row i states that stage i has the abscissa
-    m_i. Each equation is solved for one entry of ``own``.
+    The entries of ``own`` satisfy two kinds of equations. The equation of row i states that stage i has the
+    abscissa m_i. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j. Here j' = s + 1 - j, and b_i are
+    the weights. The term C_j contains no entry of ``own``. The result contains a formula for each C_j. It
+    also contains formulas for entries of ``own`` that solve the equations. In the formulas, y_J is the sum of
+    row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

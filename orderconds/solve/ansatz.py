@@ -1,9 +1,11 @@
-"""An ansatz: a tableau file whose decimals are the unknowns of a search.
+"""An ansatz: the text of a tableau file in which some coefficients are unknown. A search computes them.
 
 The file describes a method with a given number of stages. Its coefficients have names such as a21 and b1, and
-they satisfy constraints. The coefficients are evaluated in three rings: traces, residues modulo primes, and
-balls (intervals). Traces record a program for the numerical search. Residues give the ranks of conditions.
-Balls give the proof.
+they satisfy constraints. The coefficients are evaluated in three rings:
+
+- traces: a trace records the operations that compute a number. The numerical search uses these programs.
+- residues modulo primes: they give the ranks of conditions.
+- balls (intervals): they give the proof.
 """
 
 from __future__ import annotations
@@ -29,8 +31,8 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the theorem by which some order conditions imply all others
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: True if the conditions are those of the Runge-Kutta tableau to which the method reduces on
-      an abelian group
+    - ``abelian``: True if the order conditions apply to a Runge-Kutta tableau. On an abelian group, the
+      method of the ansatz reduces to this tableau.
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
@@ -57,8 +59,8 @@ class Ansatz:
         return "\n".join([*self.body, *head, *table, *self.tail, *foot]) + "\n"
 
     def symbolic(self) -> SymbolicCoefficients:
-        """Return the parsed coefficients of the file, with an unknown for each free coefficient. Raises
-        InputError if no coefficient is free."""
+        """Return the coefficients of the file as expressions in unknowns. Each free coefficient is an
+        unknown. Raises InputError if no coefficient is free."""
         places = {name: f"0.{123456789 + 7919 * place}~" for place, name in enumerate(self.free)}
         foot = ["", "[proof]", f'conditions = "{self.family.partition("(")[0]}"', "order = 1"]
         proof = Tableau.loads(self.text(places, foot=foot if self.free else ()), self.name).proof
@@ -85,7 +87,7 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return the values of all coefficients whose names are in ``cells``, in the sequence of these names.
+        """Return the values of all coefficients whose names are in ``cells``, in the same order.
         ``values`` contains the values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}

@@ -5,7 +5,7 @@ are then computed to high precision by Newton's method. Lattice reduction tries 
 as elements of one number field. If the coefficients are recognised, the file contains closed forms, and the
 order is checked exactly. If the coefficients are not recognised, the file contains rounded decimals. Interval
 arithmetic then proves that the order conditions have a solution near these decimals. The proof uses only
-conditions that are independent for the ansatz (:mod:`orderconds.proof.subfamily`).
+conditions that are independent for methods of the form of the ansatz (:mod:`orderconds.proof.subfamily`).
 """
 
 from __future__ import annotations
@@ -136,8 +136,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve for the coefficients ``solved``, with all other coefficients fixed at ``start``. Return the
-    solution and the norm of the residual."""
+    """Solve for the coefficients with the indices ``solved``. All other coefficients keep their values in
+    ``start``. Return the solution and the norm of the residual."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -161,8 +161,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Return True if the Jacobian with respect to the coefficients ``solved`` has no singular value near
-    zero."""
+    """Return True if the Jacobian with respect to the coefficients with the indices ``solved`` has no
+    singular value near zero."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -171,8 +171,8 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the ascending indices of the unknowns that the equations determine best. Gaussian elimination of
-    the Jacobian ``slopes`` with complete pivoting selects these unknowns.
+    """Return the indices of the unknowns for which the equations are solved, in ascending order. They are the
+    pivots of Gaussian elimination of the Jacobian ``slopes`` with complete pivoting.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -195,8 +195,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Compute the coefficients ``solved`` to nearly :data:`BITS` bits by Newton's method. The coefficients
-    ``pinned`` are fixed.
+    """Compute the coefficients with the indices ``solved`` to nearly :data:`BITS` bits by Newton's method.
+    ``pinned`` maps the indices of the other coefficients to their fixed values.
 
     Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
@@ -239,7 +239,8 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return the square roots of rational numbers in the ansatz as a map from text to value."""
+    """Return the square roots of rational numbers that occur in the ansatz. The result maps the text of each
+    root to its value."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -292,7 +293,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # A tableau file treats decimals that are equal up to sign as one unknown. Add digits until
+            # In a tableau file, decimals that are equal up to sign denote the same unknown. Add digits until
             # different coefficients have different decimals.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
@@ -310,7 +311,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x, rounded to ``places`` decimal places and followed by ``~``."""
+    """Return x, rounded to ``places`` decimal places. The mark ``~`` of rounded decimals is appended."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

@@ -1,9 +1,10 @@
 """Lattice reduction that recognises numbers of high precision as elements of one number field.
 
-Let x be an approximate root of a polynomial with small integer coefficients. Let N be a large number and e_k
-the k-th unit vector. The vectors (e_k, N x^k) span a lattice. A short vector of this lattice contains the
-coefficients of the polynomial (Lenstra, Lenstra and Lovasz 1982). The recognised number is only a guess. The
-caller must verify the guess by exact arithmetic in the field.
+Let x be an approximate root of a polynomial with small integer coefficients c_k. Let N be a large number and
+e_k the k-th unit vector. The vectors (e_k, N x^k) span a lattice. The sum of c_k (e_k, N x^k) is a short
+vector of this lattice, because its last entry N sum_k c_k x^k is small. Lattice reduction finds this vector
+(Lenstra, Lenstra and Lovasz 1982). The recognised number is only a guess. The caller must verify the guess by
+exact arithmetic in the field.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from orderconds.ring.precision import precision
 from orderconds.ring.roots import isolating, real_roots
 
 MAX_DEGREE = 6
-"""The highest degree of a minimal polynomial that is recognised."""
+"""The highest degree of an algebraic number that is recognised."""
 
 MAX_TEXT = 160
 """The largest number of characters in a closed form. Longer closed forms are not used."""
@@ -42,9 +43,10 @@ def closed_forms(
     closed form has more than :data:`MAX_TEXT` characters.
 
     ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
-    The first trial uses the field that these square roots generate. The second trial adjoins one of the
-    numbers. The last trial uses the field that a number of the highest degree generates. No number may have a
-    degree above :data:`MAX_DEGREE`. Without ``radicals``, only the last trial is made.
+    The first trial uses only these square roots. The second trial adjoins one of the numbers. The last trial
+    uses the field that one of the numbers generates, whose minimal polynomial has the highest degree. No
+    minimal polynomial may have a degree above :data:`MAX_DEGREE`. Without ``radicals``, only the last trial
+    is made.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -78,10 +80,9 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots. If some numbers are not
-    such combinations, adjoin one of them to the field of the square roots, and return all numbers as elements
-    of the larger field. Return None if the larger field does not contain all numbers, or if its degree
-    exceeds 2 MAX_DEGREE."""
+    """Return the numbers as rational combinations of 1 and the given square roots, if possible. If one of the
+    numbers is not such a combination, call it r, and allow products of the square roots with powers of r.
+    Return None if this fails, too, or if there are more than 2 MAX_DEGREE products."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -144,8 +145,8 @@ def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | Non
 
 
 def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
-    """Return small integers c_k with sum_k c_k values_k = 0 to the given precision, or None if none are
-    found."""
+    """Return small integers c_k for which sum_k c_k values[k] vanishes to the given precision. Return None if
+    none are found."""
     known = bits - 100
     scale = fmpz(2) ** known
     rows = []
@@ -154,8 +155,8 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Without a relation between the numbers, the shortest vector has a length of about det^(1/n). Here det is
-    # the determinant and n the dimension of the lattice. The vector of a relation is much shorter.
+    # Let det be the determinant and n the dimension of the lattice. If the numbers satisfy no relation, the
+    # shortest vector has a length of about det^(1/n). If they satisfy a relation, it is much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -167,9 +168,9 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the value of sqrt(D), the text of sqrt(D), and an empty tuple. D is the square-free integer for
-    which sqrt(D) generates the field of the roots of the quadratic polynomial p. The tuple is empty, because
-    a tableau file needs no lines that define sqrt(D)."""
+    """Return three values: sqrt(D), its text, and an empty tuple. The roots of the quadratic polynomial p
+    generate the field of sqrt(D), where D is a square-free integer. The tuple is empty, because a tableau
+    file needs no lines that define sqrt(D)."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

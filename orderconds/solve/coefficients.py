@@ -17,10 +17,11 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the elimination of ``constraints`` and of the constraints that the option ``--fix`` states.
+    """Eliminate coefficients with two lists of constraints: ``constraints``, and those of the option
+    ``--fix``.
 
-    Constraints of ``--fix`` may contain names of nodes. Raises InputError for a constraint with an unknown
-    name.
+    A constraint of ``--fix`` may contain names of nodes, such as c2. Raises InputError for a constraint with
+    an unknown name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -45,8 +46,8 @@ def eliminated(
 @dataclass(frozen=True)
 class Cells:
     """The texts of the coefficients in a tableau file, after elimination of the linear constraints. ``extra``
-    contains further formulas, for auxiliary numbers and for coefficients that depend non-linearly on other
-    coefficients."""
+    contains further formulas: for auxiliary numbers such as the abscissae m1, m2, ..., and for coefficients
+    that depend non-linearly on other coefficients."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -60,8 +61,8 @@ class Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return a map from names of coefficients to formulas. It contains the coefficients in ``names`` that
-        depend on other coefficients, and all formulas in ``extra``."""
+        """Return formulas as a map from name to text. If a coefficient in ``names`` depends on other
+        coefficients, the map contains its formula. The map also contains all formulas in ``extra``."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)

@@ -3,7 +3,7 @@
 The proof uses a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, no
 real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
 Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
-If the formulas of the family divide by the coefficient, the coefficient is not zero. The root zero is then
+Formulas of some families divide by the weights b_i. If the coefficient is such a weight, the root zero is
 ignored. The certificate expresses 1 or the polynomial as a combination of the conditions. Polynomial
 multiplication verifies the combination.
 """
@@ -149,8 +149,8 @@ def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
     """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
-    Return None if no such polynomial is found. If the formulas of the family divide by the weights, no weight
-    is zero. The root 0 of a polynomial whose variable is a weight is then ignored."""
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights b_i, the
+    root b_i = 0 of a polynomial in b_i is ignored."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -199,9 +199,10 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a certificate with a polynomial (multiplier) for each equation in ``members``. If each equation
-    is multiplied by its multiplier, the sum of the products is ``consequence``. Return None if there are no
-    multipliers of degree below :data:`MAX_DEGREE`."""
+    """Return a proof that the equations in ``members`` imply the equation ``consequence`` = 0. The proof
+    contains polynomials, called multipliers. Each equation is multiplied by its multiplier, and the sum of
+    the products is ``consequence``. Return None if there are no multipliers of degree below
+    :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

@@ -1,15 +1,20 @@
 """Continuous extensions (dense output) of Runge-Kutta methods, from linear equations.
 
-The weights of the extension are polynomials in theta, b_i(theta) = sum_p beta_{p,i} theta^p. Here i is the
-number of the stage, and theta is the fraction of the step. Let t be a tree with |t| nodes, density gamma(t)
-and elementary weight sum_i b_i Phi_i(t). The extension has order q if the number sum_i beta_{p,i} Phi_i(t)
-has the following value for each p and all trees t with at most q nodes: 1/gamma(t) if |t| = p, and 0
-otherwise. For each p, these equations are a linear system. The solution of least norm is used.
+The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. Its
+weights are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p, where i is the number of the stage.
+Let t be a tree with |t| nodes, density gamma(t) and elementary weight sum_i b_i Phi_i(t). The extension has
+order q under two conditions for each p and all trees t with at most q nodes:
+
+- If |t| = p, then sum_i beta_{p,i} Phi_i(t) = 1/gamma(t).
+- In all other cases, sum_i beta_{p,i} Phi_i(t) = 0.
+
+For each p, these equations are a linear system. The solution of least norm is used.
 
 If the first stage is the initial value, the coefficients of theta are chosen differently: beta_{1,1} = 1, and
-beta_{1,i} = 0 for i > 1. The derivative at theta = 0 is then exact. Finally, the coefficients of the highest
-powers of theta are changed such that b_i(1) = b_i. The derivative at theta = 1 is exact as well under three
-conditions: the first stage is the initial value, the last stage is the final value, and q > 1.
+beta_{1,i} = 0 for i > 1. The derivative at theta = 0 is then exact. Finally, each b_i(theta) is changed such
+that b_i(1) = b_i. Only the coefficients of the highest one or two powers of theta change. The derivative at
+theta = 1 is exact as well under three conditions: the first stage is the initial value, the last stage is the
+final value, and q > 1.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
-"""Ansatz of low-storage (2N) schemes, whose unknowns are the coefficients A_i and B_i.
+"""The ansatz of low-storage (2N) schemes, which store two registers. Its unknowns are the coefficients A_i
+and B_i.
 
 On a Lie group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
-search therefore solves the conditions of Runge-Kutta methods. Up to order 6, Runge-Kutta methods have 37
-conditions, and commutator-free methods have 113.
+search therefore solves the conditions of Runge-Kutta methods, which are fewer: up to order 6, there are 37
+conditions of Runge-Kutta methods and 113 conditions of commutator-free methods.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ CENTRE = {"A": -0.8, "B": 0.25}
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of schemes with two registers K and Y. Stage i computes K <- A_i K + F(Y), then Y <-
-    exp(h B_i K) Y, with A_1 = 0.
+    """Return the ansatz of schemes with two registers K and Y, for a vector field F. Stage i first replaces K
+    by A_i K + F(Y). Then it replaces Y by exp(h B_i K) Y. The coefficient A_1 is zero.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
     ('B1', 'B2', 'A2')
@@ -61,7 +62,8 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return the family F whose order conditions ``solve`` uses to find 2N schemes of ``family``.
+    """Return the family F whose order conditions ``solve`` uses to find low-storage (2N) schemes of
+    ``family``.
 
     By a theorem, each 2N scheme has the same order in F and in ``family``.
 

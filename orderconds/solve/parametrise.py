@@ -185,8 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. With these coefficients, the stages have the
-    abscissae of :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of the stages. With these coefficients, the three abscissae of
+    each stage are equal (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -221,10 +221,10 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints on the sums of exponents.
+    """Return constraints that relate a method to the Gauss method (A, b) with the same number of stages.
 
-    Let (A, b) be the tableau of the Gauss method with the same number of stages. The exponents of stage i add
-    up to row i of A, and the exponents of the update add up to b.
+    In the exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the
+    update, the coefficients of stage j add up to b_j. ``totals`` contains the coefficients a_ij and b_j.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
@@ -239,8 +239,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. With these coefficients, the stages have
-    the abscissae of :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of a symmetric method. With these coefficients, the three
+    abscissae of each stage are equal (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -284,7 +284,8 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of symmetric compositions. The step sizes form a palindrome and add up to 1.
+    """Return the ansatz of methods that compose steps of a symmetric method of order 2. The step sizes form a
+    palindrome and add up to 1.
 
     >>> from orderconds.families import get
     >>> composition(get("composition"), Spec(stages=3), "full", "m").free
@@ -335,7 +336,10 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         ]
     order = [name for x in (a, b) for name in sorted(x, key=lambda y: -abs(2 * int(y[1:]) - len(x) - 1))]
     constraints += [
-        Constraint("the steps of each part add up to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
+        Constraint(
+            "the steps of T and V each add up to 1",
+            {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)},
+        )
         for x in (a, b)
     ]
     elimination = eliminated(order, spec, constraints)
@@ -409,15 +413,15 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisation of its methods. For a family, the name is the
-attribute :attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisation of its methods. The format for the methods of a
+family is its attribute :attr:`orderconds.families.Family.unknowns`."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of schemes with two registers (2N)."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
+    """Return the ansatz for methods that satisfy the specification. ``family`` is the label of their family.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.

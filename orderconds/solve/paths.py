@@ -1,15 +1,17 @@
-"""Parametrisations of the exponentials of commutator-free methods: with free coefficients, or symmetric.
+"""Parametrisations of the exponentials of commutator-free methods. There is one for all methods and one for
+symmetric methods.
 
 A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Let bar X be the exponent X in which stages j
-and s + 1 - j are exchanged. The method is symmetric under two conditions. First, Y_(m+1-J) = bar Y_J for all
-J. Second, each stage i begins with some number k of exponentials of the update, and the mirrored stage s + 1
-- i begins with m - k exponentials:
+and s + 1 - j are exchanged. The method is symmetric under two conditions on the update and on the values Q_i
+of the stages:
 
-    Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
-    Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
+- Y_(m+1-J) = bar Y_J for all J.
+- For each stage i, there are a number k and exponents X_1, ..., X_r with
 
-Here Q_i is the value of stage i, and X_1, ..., X_r are the exponents that only stage i and the mirrored stage
-have. A step of length -h is then the inverse of a step of length h.
+      Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
+      Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
+
+A step of length -h is then the inverse of a step of length h.
 """
 
 from __future__ import annotations
@@ -23,12 +25,14 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""The stages, the update, the names of all coefficients, and the constraints."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. Each
+stage and the update are lists of exponentials. An exponential is a list of the names of its coefficients."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and an update whose coefficients are all free. For explicit and diagonally implicit
-    methods, constraints set some coefficients to zero. The first stage of an explicit method is y0.
+    """Return the parametrisation of all methods. Each stage has a coefficient in each exponential. For
+    explicit and diagonally implicit methods, constraints set some coefficients to zero. The first stage of an
+    explicit method has no exponentials.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -54,8 +58,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return a symmetric update, and stages that begin with exponentials of the update. Each stage ends with
-    at least one exponential that is not from the update.
+    """Return the parametrisation of symmetric methods. A stage begins with exponentials of the update. At
+    least one exponential follows that is not from the update.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -75,7 +79,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with about a fraction i/s of the m exponentials of the update.
+        # Stage i begins with the first ``whole`` of the m exponentials of the update. In the first half of
+        # the stages, ``whole`` is (i - 1/2) m/s, rounded up.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share
