@@ -4,8 +4,8 @@ The proof uses a Groebner basis of the conditions that involve few coefficients.
 real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
 Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
 Formulas of some families divide by the weights b_i. If the coefficient is such a weight, the root zero is
-ignored. The certificate expresses 1 or the polynomial as a combination of the conditions. Polynomial
-multiplication verifies the combination.
+ignored, because no method of the family has this weight. The certificate expresses 1 or the polynomial as a
+combination of the conditions. Polynomial multiplication verifies the combination.
 """
 
 from __future__ import annotations
@@ -49,6 +49,9 @@ class Infeasible:
     The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. The equation
     ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution either.
 
+    If ``weight`` is not empty, it is the name of a weight of the method. The equation then has the solution
+    zero, but no other real solution, and the formulas of the family divide by this weight.
+
     Entry k of ``equations`` is the left-hand side of condition k minus its right-hand side, multiplied by a
     monomial that removes all denominators.
     """
@@ -59,12 +62,18 @@ class Infeasible:
     multipliers: tuple[str, ...]
     consequence: str
     real: bool
+    weight: str = ""
 
     @property
     def reason(self) -> str:
-        """The reason why the equation ``consequence`` = 0 has no real solution."""
+        """The reason why no real method satisfies the equation ``consequence`` = 0."""
         if not self.real:
             return f"{self.consequence} = 0 is false"
+        if self.weight:
+            return (
+                f"{self.consequence} = 0 has no real root other than 0 (Sturm), and the formulas of the "
+                f"family divide by {self.weight}"
+            )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
     def as_json(self) -> dict[str, object]:
@@ -109,9 +118,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
     for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
-        consequence = _consequence(problem, variables, [x for _, x in members], plain)
-        if consequence is not None:
-            certificate = _certificate(variables, members, consequence, plain)
+        found = _consequence(problem, variables, [x for _, x in members], plain)
+        if found is not None:
+            certificate = _certificate(variables, members, *found, plain)
             if certificate is not None:
                 return certificate
     return None
@@ -147,28 +156,32 @@ def _subsystems(
 
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
-) -> fmpq_mpoly | None:
+) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
-    Return None if no such polynomial is found. If the formulas of the family divide by the weights b_i, the
-    root b_i = 0 of a polynomial in b_i is ignored."""
+
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights b_i, a
+    polynomial in b_i may have the root zero. The second value is then the name of b_i, and otherwise empty.
+    """
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
     if not symbols:
-        return plain.one
+        return plain.one, ""
     expressions = [_sympy(x, variables, symbols) for x in members]
     basis = sympy.groebner(expressions, *symbols, order="lex")
     for polynomial in basis.polys:
         free = polynomial.free_symbols_in_domain | polynomial.as_expr().free_symbols
         if not free:
-            return plain.one
+            return plain.one, ""
         if len(free) == 1:
             (symbol,) = free
+            weight = ""
             univariate = sympy.Poly(polynomial.as_expr(), symbol)
             while problem.family.needs_nonzero_weights and symbol.name[0] == "b" and not univariate.eval(0):
                 univariate = sympy.div(univariate, sympy.Poly(symbol, symbol))[0]
+                weight = symbol.name
             if univariate.count_roots() == 0:
-                return _flint(sympy.Poly(polynomial.as_expr(), symbol), plain)
+                return _flint(sympy.Poly(polynomial.as_expr(), symbol), plain), weight
     return None
 
 
@@ -197,6 +210,7 @@ def _certificate(
     variables: Sequence[int],
     members: Sequence[Member],
     consequence: fmpq_mpoly,
+    weight: str,
     plain: Polynomials,
 ) -> Infeasible | None:
     """Return a proof that the equations in ``members`` imply the equation ``consequence`` = 0. The proof
@@ -216,6 +230,7 @@ def _certificate(
                 multipliers=tuple(plain.text(m) for _, _, m in used),
                 consequence=plain.text(consequence),
                 real=bool(_support(consequence)),
+                weight=weight,
             )
     return None
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 import sympy
 
-from orderconds.solve.elimination import infeasible
+from orderconds.ring.polynomials import Polynomials
+from orderconds.solve.elimination import _certificate, _consequence, infeasible
 from orderconds.solve.problem import find_problem
 from orderconds.solve.spec import Spec
 
@@ -54,3 +55,30 @@ def test_the_equations_are_the_conditions() -> None:
 )
 def test_what_exists_is_not_refuted(family: str, order: int, spec: Spec) -> None:
     assert infeasible(find_problem(family, order, spec, "full")) is None
+
+
+def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> None:
+    """No method of VCG has a weight zero, but the equation b1^3 + b1 = 0 has the real root 0."""
+    problem = find_problem("vcg", 3, Spec(2), "full")
+    plain = Polynomials(problem.ansatz.free)
+    k = plain.names.index("b1")
+    b1 = plain.generators[k]
+    member = b1 * (b1 * b1 + plain.one)
+    found = _consequence(problem, [k], [member], plain)
+    assert found is not None
+    consequence, weight = found
+    assert (plain.text(consequence), weight) == ("b1^3 + b1", "b1")
+    (condition,) = problem.family.conditions(1)
+    proof = _certificate([k], [(condition, member)], consequence, weight, plain)
+    assert proof is not None
+    assert proof.reason == (
+        "b1^3 + b1 = 0 has no real root other than 0 (Sturm), and the formulas of the family divide by b1"
+    )
+
+
+def test_a_weight_zero_is_a_root_where_no_formula_divides_by_it() -> None:
+    problem = find_problem("rk", 3, Spec(2, explicit=True), "full")
+    plain = Polynomials(problem.ansatz.free)
+    k = plain.names.index("b1")
+    b1 = plain.generators[k]
+    assert _consequence(problem, [k], [b1 * (b1 * b1 + plain.one)], plain) is None
