@@ -43,7 +43,7 @@ class Domain(Protocol):
     h: Scalar
 
     def number(self, value: Number) -> Scalar:
-        """Convert an exact number to a scalar of this domain. It is rounded at most once."""
+        """Convert an exact number to a scalar of this domain, with at most one rounding."""
 
     def rational(self, p: int, q: int = 1) -> Scalar:
         """Return the rational number p/q as a scalar of this domain."""
@@ -63,15 +63,15 @@ class Differenced(Domain, Protocol):
     """A domain in which Newton's method can use difference quotients in place of derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
 
 
 def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
     z.
 
-    For large z the function oscillates. The error is then a few units in the last place of the amplitude. For
-    z > 2^52 the result is NaN, as in emitted code.
+    For large z the function oscillates. The error is then a few units in the last place of the amplitude of
+    the oscillation. For z > 2^52 the result is NaN, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
@@ -112,7 +112,8 @@ def stumpff(k: int, z: float) -> float:
 def slope(k: int, z: float) -> float:
     """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3, and positive or negative z.
 
-    For abs(z) > 1 the closed form (c_{k-1} - k c_k)/(2 z) replaces the series.
+    For abs(z) <= 1 the power series of c_k' is summed. Otherwise c_k' is computed as
+    (c_{k-1} - k c_k)/(2 z).
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
@@ -129,7 +130,8 @@ def slope(k: int, z: float) -> float:
 def curvature(k: int, z: float) -> float:
     """Return the second derivative c_k''(z) of the Stumpff function c_k for k = 2, 3 and z >= 0.
 
-    Above z = 1 the closed form (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2 replaces the series.
+    For z <= 1 the power series of c_k'' is summed. Otherwise c_k'' is computed as
+    (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
 
     >>> curvature(2, 0.0) == 2 / 720
     True
@@ -176,18 +178,18 @@ class FloatDomain:
         return result
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results of a vector function, computed by the same operations as in emitted code."""
+        """Return the results of a vector function for doubles. Emitted code executes the same operations."""
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return a pair: whether the change from ``old`` to ``new`` is at rounding level, and its size."""
+        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
+        ``new``. ``previous`` is the size that the previous call returned."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # For a NaN all comparisons below are false. Without this test the iteration would go on up to its
-        # limit.
+        # All comparisons below are false for a NaN. Without this test the iteration would not end early.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The change is compared with the largest unknown, because a small unknown may be the sum of large
-        # terms and contains their rounding errors.
+        # The change is compared with the largest unknown. A small unknown may be the sum of large terms that
+        # cancel, and it then contains the rounding errors of these terms.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # The rate of convergence is about change/before, so the remaining error is about change^2/before.
@@ -200,9 +202,9 @@ class FloatDomain:
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # The rounding error of the quotient is about 2^-53/d, and its truncation error is about d. Both are
-        # of about the same size for d = 2^-26.
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
+        # The difference quotient has a rounding error of about 2^-53/d, and a truncation error of about d.
+        # For d = 2^-26 the two errors are of about the same size.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -212,9 +214,9 @@ LARGEST_BITS = 16384
 
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
-    context. OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath
-    itself has no such bound. It would compute the sine of a number with millions of digits, for example in a
-    divergent iteration."""
+    context. OverflowError is raised if the absolute value of an argument of a function is
+    2^:data:`LARGEST_BITS` or more. mpmath has no such bound. In a divergent iteration it would spend a long
+    time on functions of numbers with millions of digits."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -242,9 +244,8 @@ class PreciseDomain:
         return self.context.mpf(p) / q
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate a function with mpmath. Stumpff functions of arguments up to 1 are computed by a
-        series.
-        """
+        """Evaluate a function with mpmath. A Stumpff function c_k(z) is computed by its power series for
+        z <= 1, and by a closed formula for z > 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
@@ -279,8 +280,8 @@ class PreciseDomain:
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return the derivative c_k'(z) of the Stumpff function c_k. It is computed from its series for
-        abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z)."""
+        """Return the derivative c_k'(z) of the Stumpff function c_k. For abs(z) <= 1 the power series of
+        c_k' is summed. Otherwise c_k' is computed from c_{k-1} and c_k."""
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -292,8 +293,8 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return the second derivative c_k''(z) of the Stumpff function c_k. It is computed from its series
-        for abs(z) <= 1, and from c_{k-2}, c_{k-1} and c_k for larger abs(z)."""
+        """Return the second derivative c_k''(z) of the Stumpff function c_k. For abs(z) <= 1 the power
+        series of c_k'' is summed. Otherwise c_k'' is computed from c_{k-2}, c_{k-1} and c_k."""
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -307,27 +308,26 @@ class PreciseDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
-        ``new``. It has converged if the change is zero, or if the change is at most 2^12 rounding units and
-        is not smaller than ``previous``.
-        """
+        ``new``. It has converged if the change is zero. It has also converged if the change is at most 2^12
+        rounding units and not smaller than ``previous``, the size of the previous change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # While the changes decrease, the next sweep gives further correct digits. The iteration has therefore
-        # converged only if the change is small and no longer decreases.
+        # While the change of the unknowns decreases from sweep to sweep, a further sweep gives more correct
+        # digits. The iteration ends when the change is small and no longer decreases.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
 class SeriesDomain:
-    """The arithmetic of power series in h over an exact ring ``base``, without the powers above h^``order``.
-    The Taylor coefficients of local errors are exact in this arithmetic."""
+    """The arithmetic of power series in h over an exact ring ``base``. Powers above h^``order`` are
+    truncated. The Taylor coefficients of a local error are exact in this arithmetic. An integrator has the
+    order p at the initial state if the coefficients up to h^p are zero."""
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # If the exact coefficients of a local error are zero up to h^p, the order p is proved.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -343,10 +343,10 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the series of a function of a series. ArithmeticError is raised if its coefficients cannot
-        be computed exactly. Sine, cosine, exponential and similar functions require an argument without
-        constant term. The function ``quotient`` divides two series. If the divisor begins with the power h^v,
-        the last v coefficients of the quotient are unknown and are set to zero."""
+        """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
+        cannot be computed exactly. Sine, cosine, exponential and similar functions require an argument
+        without constant term. ``quotient`` divides two series. If the divisor begins with the power h^v, the
+        last v coefficients of the quotient are unknown and are set to zero."""
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -368,12 +368,12 @@ class SeriesDomain:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # c_k' = (k c_{k+2} - c_{k+1})/2. In this domain c_k is computed by a series, also for k > 3.
+            # c_k' = (k c_{k+2} - c_{k+1})/2. The series in ``_sum`` is valid for any index, also above 3.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
             k = int(function[-1])
-            # The formula for c_k'' follows from the rule for c_k', applied twice.
+            # The formula for c_k'' is the formula c_k' = (k c_{k+2} - c_{k+1})/2, applied twice.
             c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
             return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
@@ -426,8 +426,7 @@ class SeriesDomain:
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return the series a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if the
         series a begins with a lower power of h than b, because a/b then has a pole at h = 0."""
-        # ``power`` is the lowest power of h in b. It may be positive, and a/b may still have a limit at h =
-        # 0.
+        # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
@@ -442,17 +441,17 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The divisor is the ratio of successive factorials, so no large factorials are computed.
+            # The divisor is (step j + k)!/(step (j - 1) + k)!. The large factorials are not computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
             # z has no constant term, so each term begins with a higher power of h than the previous term. The
-            # loop ends when only truncated powers remain in the term.
+            # loop ends when the term begins with a power above h^order, which is truncated.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return True if ``old`` and ``new`` are equal, else False, and None as the size of the change."""
+        """Return the pair (converged, None). ``converged`` is true if ``old`` and ``new`` are equal."""
         # Each sweep multiplies the error by O(h), so it gives one more correct coefficient. Convergence takes
         # about order + 1 sweeps.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
@@ -487,9 +486,9 @@ class ExprDomain:
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return a symbol for the value at the time t of each function in ``names``. The caller supplies
-        these functions of time at run time. Equal times give the same symbols."""
-        # Stages at the same time use the same symbols. Emitted code then evaluates each function only once.
+        """Return a table from ``names`` to symbols for values at the time t. The names are functions of time
+        that the caller of the emitted code supplies. Equal times give the same symbols."""
+        # Stages with equal times use the same symbols, so emitted code calls each function once for them.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -23,8 +23,8 @@ class Elementary:
     - ``slope(x, f)`` is the first derivative at x. The second argument of ``slope`` is the value f(x).
     - ``curvature(x, f)`` is the second derivative at x, with the same arguments.
     - ``at_zero`` is f(0), or None if f(0) is not rational.
-    - ``raising`` is true if there are arguments for which Python raises an exception, and C computes a NaN or
-      an infinity.
+    - ``raising`` is true if Python raises an exception for some arguments. C computes a NaN or an infinity
+      for these arguments.
     """
 
     name: str
@@ -79,7 +79,7 @@ ELEMENTARY = {
         Elementary("tanh", lambda x, f: 1 - f * f, lambda x, f: -2 * f * (1 - f * f)),
         Elementary("atan", _arc, lambda x, f: -2 * x * _arc(x, f) ** 2),
         Elementary("asin", _arcsine, _cubed(_arcsine), raising=True),
-        # acos(0) = pi/2 is not rational.
+        # ``at_zero`` is None, because acos(0) = pi/2 is not rational.
         Elementary("acos", _arccosine, _cubed(_arccosine), None, raising=True),
     )
 }

@@ -7,8 +7,8 @@ The Taylor polynomial of degree m of exp(A) y is computed as y + A (p/m!). Horne
 the sum of (m!/j!) A^(j-1) y over j = 1, ..., m.
 
 The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
-error in every step. For a skew matrix A, the length of y would then drift. Emitted code executes the same
-operations in the same order (:mod:`codegen.run.exponential_action`).
+error in every step of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
+executes the same operations in the same order (:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer needs no rounding if its odd part (without the factors 2) has at most ``bits`` bits. The odd
-    # part of m!/j! divides the odd part of m!, so only m! is tested.
+    # The odd part of an integer is the integer without its factors 2. An integer needs no rounding if its
+    # odd part has at most ``bits`` bits. The odd part of m!/j! divides that of m!, so only m! is tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # The smallest sufficient degree may be missing in this list. The next degree in the list needs at most
-    # three more products with A.
+    # Only every fourth degree is in the list. Each degree that is left out is replaced by the next larger
+    # degree in the list, which needs at most three more products with A.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -63,13 +63,13 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m of :func:`degrees`, the largest norm of a matrix for which this degree is
-    used.
+    """Return one bound for each degree m of :func:`degrees`. The Taylor polynomial of degree m is used only
+    for matrices whose norm is at most this bound.
 
     The norm is the largest row sum of absolute values. The bound is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)),
-    rounded to three digits. The remainder of the Taylor polynomial is then below 2^-10 times the unit
-    roundoff. A larger remainder would change the length of y noticeably during a long run, because the
-    changes of all steps are equal and add up.
+    rounded to three digits. The remainder of the Taylor polynomial of exp(A) is then below 2^-10 times the
+    unit roundoff. A larger remainder would change the length of the vector exp(A) y noticeably during a long
+    run, because it would change the length by the same factor in every step.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -107,8 +107,8 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """One tuple for each row of A. It contains the pair (index of the argument, column) for each entry
-        that is an argument.
+        """One tuple for each row of A. This tuple contains a pair (index of the argument, column) for each
+        entry of the row that is an argument.
         """
         entries = list(enumerate(self.places))
         return tuple(
@@ -117,7 +117,9 @@ class ExponentialAction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The number of entries of A that are arguments, and the length of the vector y."""
+        """The number of scalars in each array of arguments. The first array contains the entries of A that
+        are arguments, and the second array is the vector y.
+        """
         return (len(self.places), self.n)
 
     @property
@@ -150,7 +152,8 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # The larger matrix contains zeros. ``expanded`` may remove them from the arguments.
+        # The block matrix contains zeros. If the matrix is not too large, ``expanded`` removes the zeros from
+        # the arguments.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -161,7 +164,7 @@ class ExponentialAction(VectorFunction):
         If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call whose
         arguments are the non-zero entries of A, followed by y.
         """
-        # With a pattern, the zero entries have already been removed from the arguments.
+        # A function with a pattern is not simplified further: its arguments do not include zero entries.
         if self.pattern:
             return None
         size = self.n**2
@@ -170,15 +173,15 @@ class ExponentialAction(VectorFunction):
         # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # For a large matrix, one sum for each row would be long code. Emitted code then uses a loop over an
-        # array that contains all entries, also the zeros.
+        # For a matrix with more than ``SPARSE`` rows, a separate sum for each row would make the emitted code
+        # long. A loop over an array of all entries, also the zeros, is shorter.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
         return args[0].space.vector(own.name, (*(args[k] for k in own.places), *args[size:]))
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return exp(A) y in doubles, computed by the same operations as in emitted code."""
+        """Return exp(A) y for doubles. Emitted code executes the same operations."""
         entries, rows = len(self.places), self.rows
         a, y = list(args[:entries]), list(args[entries:])
         # ``norm`` is the largest row sum of absolute values.
@@ -194,7 +197,7 @@ class ExponentialAction(VectorFunction):
         while norm * scale > norms[-1] and parts < 2**HALVINGS:
             scale, parts = 0.5 * scale, 2 * parts
         norm *= scale
-        # In this form the test is also true for a NaN.
+        # Unlike ``norm > norms[-1]``, this test is also true if ``norm`` is a NaN.
         if not norm <= norms[-1]:
             return (math.nan,) * self.n
         # ``scale`` is a power of two, so this product causes no rounding errors.
@@ -204,7 +207,7 @@ class ExponentialAction(VectorFunction):
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # For the degree m, ``weight`` becomes m!/(k - 1)!, which is an exact integer.
+                # The new ``weight`` is m!/(k - 1)!, where m is ``degree``. This integer is exact.
                 weight *= k
                 # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
@@ -215,7 +218,7 @@ class ExponentialAction(VectorFunction):
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return exp(A) y for mpmath numbers.
 
-        :class:`OverflowError` is raised if n times the largest absolute value of an entry is 2^40 or more.
+        A is an n x n matrix with entries a_ij. :class:`OverflowError` is raised if n max abs(a_ij) >= 2^40.
         """
         entries, rows = len(self.places), self.rows
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
@@ -247,8 +250,8 @@ class ExponentialAction(VectorFunction):
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
         # Let A_0 be the nilpotent matrix of the constant terms, so that A_0^n = 0. Powers of h above h^p are
-        # truncated. Each term of A^(n (p + 1)) is zero, because it contains the factor A_0^n or a truncated
-        # power of h.
+        # truncated. Then A^(n (p + 1)) is zero: each summand of the expanded power contains the factor A_0^n
+        # or a power of h above h^p.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
@@ -258,19 +261,19 @@ class ExponentialAction(VectorFunction):
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]
-        raise ArithmeticError(f"an exponential series does not end within {longest} terms")
+        raise ArithmeticError(f"the exponential series of a matrix does not end within {longest} terms")
 
 
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y. ``a`` contains the entries of A. ``rows`` contains one sequence for each row of A: the
-    pairs (index in ``a``, column) of its entries.
+    """Return A y. ``a`` contains the entries of A. ``rows`` contains one sequence for each row of A. The
+    sequence consists of one pair (index in ``a``, column) for each entry of the row.
     """
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]
-        # If all entries of the row are zero, ``terms`` is empty.
+        # If no entry of the row is in ``a``, ``terms`` is empty.
         total = terms[0] if terms else zero
         for x in terms[1:]:
             total = total + x

@@ -124,8 +124,8 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The table refers to every node, so Python frees no node, and the space never uses a node number
-        # twice.
+        # Nodes are never removed from the table. The number of a new node is the length of the table, so no
+        # number is used twice.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
         """A cache: the derivatives of calls of vector functions (see
@@ -289,7 +289,7 @@ class Space:
         """Return the value of ``function`` at the arguments ``args``: a call node or a simpler expression.
 
         ``function`` is a name in :data:`FUNCTIONS`, the name of one result of a vector function (such as
-        ``inverse5.7``), or a table of class :class:`PiecewisePolynomial`.
+        ``inverse5.7``, result 7 of ``inverse5``), or a table of class :class:`PiecewisePolynomial`.
         """
         known = _folded(function, args)
         if known is not None:
@@ -298,14 +298,15 @@ class Space:
         # cannot contain it.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
-            # An unknown name would otherwise cause an error only later, when the expression is printed.
+            # Without this test, an unknown name would cause an error only when the expression is printed.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return one call node for each result of a vector function (:mod:`codegen.ir.vector_function`)."""
-        # All nodes have the same arguments. The emitter recognises such nodes as the results of one call.
+        # The nodes of all results have the same arguments. The emitter thus recognises that they are results
+        # of one call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
@@ -315,7 +316,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
     ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0.
     """
-    # If a and b are the same expression, the condition x > 0 does not matter.
+    # ``choose(x, a, a)`` equals ``a`` for every x.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -335,8 +336,8 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring. Their sum and product can then be computed exactly."""
-    # Every ring contains the rational numbers. For two different rings other than QQ (the rational numbers),
-    # no common ring is known.
+    # Every ring contains the rational numbers. Constants of two different rings have a known common ring only
+    # if one of the constants is rational.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
@@ -365,7 +366,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # ``node`` is put on the stack, because its remaining arguments are visited after ``arg``.
+                    # The loop goes on with the arguments of ``arg``. The stack stores the node that uses
+                    # ``arg``, and its remaining arguments.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -394,8 +396,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # ``roots`` is read twice below. It may be an iterator, which can be read only once, so it is copied.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # All results of a call of a vector function are computed together. The key is the name of the function
-    # with the ids of its arguments.
+    # All results of a call of a vector function are computed together. A key of ``vectors`` consists of the
+    # name of the function and the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # ``walk`` yields the arguments of a node before the node, so their values are already known.

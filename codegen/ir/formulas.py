@@ -1,4 +1,4 @@
-"""A domain that evaluates a user's formulas with expressions. Products of matrices become scalar formulas."""
+"""A domain that converts a user's formulas to scalar formulas, also products of matrices."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for the values of functions of time. Both domains share this table,
-        # so the value of a function at a time t has only one symbol.
+        # ``samples`` contains the symbols for the values of functions of time. The new domain and ``domain``
+        # share this table, so the value of a function at a time t has only one symbol.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function. A product or commutator of matrices gives scalar formulas.
-        All other functions are treated as in :class:`ExprDomain`.
+        """Return the results of a vector function. If it is a product or commutator of matrices, the results
+        are scalar formulas. All other functions are treated as in :class:`ExprDomain`.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

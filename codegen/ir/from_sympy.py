@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     import sympy
 
 CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
-"""The functions that formulas may call by these names. ``sqrt`` is not listed, because sympy represents roots
-by powers.
+"""The names of functions that formulas may call. ``sqrt`` is not included, because sympy represents sqrt(x)
+by the power x^(1/2).
 """
 
 SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
@@ -100,22 +100,21 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # A function that is not in ``SAFE`` has a finite value for every finite double.
+            # A function that is not in ``SAFE`` needs no guard: it is finite for every finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # The angle of the point (x, y) is not differentiable at the origin. The formula may be part of a
-            # branch of a Piecewise formula. Where this branch is not selected, x is replaced by 1, and the
-            # point is not the origin.
+            # atan2(y, x) is not differentiable at x = y = 0. If the formula is part of a branch of a
+            # Piecewise formula, x is replaced by 1 where this branch is not selected.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
-            # The other arguments contain the data of the table. The last argument is the point of evaluation.
+            # The last argument is the point of evaluation. The first arguments contain the data of the table.
             return self.space.call(table, self.node(e.args[-1]))
         if name in JUMPING:
-            hint = "write a Piecewise formula, or a table, for the range that the state reaches"
+            hint = "replace the function by a Piecewise formula or a table for the range of its argument"
             raise SceneError(
                 f"{e} has infinitely many jumps",
                 where=self.where,
@@ -132,7 +131,7 @@ class _Reader:
         # code.
         value = decimal(e)
         if not is_normal(value):
-            expected = "0, or an absolute value between 1e-307 and 1e308"
+            expected = "0, or a number with an absolute value between 1e-307 and 1e308"
             raise SceneError(f"the number {e} is out of range", where=self.where, expected=expected)
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
@@ -157,7 +156,7 @@ class _Reader:
             case "sign":
                 return sign(self.node(e.args[0]))
             case "Heaviside":
-                # The second argument is the value at x = 0, by default 1/2.
+                # The second argument of Heaviside is its value at x = 0. By default, sympy inserts 1/2.
                 x, middle = map(self.node, e.args)
                 return positive(x)(space.one, positive(-x)(space.zero, middle))
             case "Min":
@@ -177,11 +176,10 @@ class _Reader:
             raise SceneError(
                 f"the Piecewise formula {e} has no default branch",
                 where=self.where,
-                expected="(formula, True) as the last branch",
+                expected="a last branch (formula, True)",
             )
-        # A Piecewise formula may be inside a branch of another Piecewise formula. ``rest`` is the condition
-        # that this outer branch is selected, and that the conditions of all earlier branches of ``e`` are
-        # false.
+        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is true where this outer
+        # branch is selected and the conditions of all earlier branches of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -194,8 +192,8 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch. Therefore the first condition is applied
-        # last.
+        # In sympy, the first true condition selects the branch. The first condition must therefore be the
+        # outermost choice, which is constructed last.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -214,8 +212,8 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # For example, x/(y z) contains one division. A separate conversion of the factors x, y^-1 and z^-1
-        # would give two divisions.
+        # The factors of the divisor are multiplied first, so x/(y z) becomes a formula with one division. The
+        # product of x, 1/y and 1/z would contain two divisions.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -224,7 +222,7 @@ class _Reader:
 
         space = self.space
         if exponent.is_Float:
-            # An exponent such as 0.5 is the exact fraction 1/2.
+            # An exponent such as 0.5 is converted to the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
             # A negative power is infinite for the base 0. If the power is part of a branch of a Piecewise
@@ -255,7 +253,7 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # The result is operation(operation(a, b), c) for the nodes a, b, c.
+    # For three nodes a, b, c the result is operation(operation(a, b), c).
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -22,7 +22,8 @@ Env = dict[Var, Value]
 State = dict[str, Value]
 """A table from the names of the inputs or outputs of a program, such as ``q``, to their values."""
 
-# The momentum in the body frame is Ad*_q mu. The inverse map gives the momentum in the space frame.
+# For the configuration q, ``TO_BODY`` maps the momentum mu in the space frame to the momentum Ad*_q mu in the
+# body frame. ``TO_SPACE`` is the inverse map.
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
@@ -51,17 +52,20 @@ def interpret(
       tuple of scalars. A matrix is stored row by row.
     - ``limit`` is the largest number of iterations (sweeps) for each block. A block is a system of equations.
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
-    - ``solutions`` contains the first values of unknowns. After the step it contains the solution.
-    - ``near`` contains a list of first values for each block. If ``near`` is given, fixed-point iteration is
-      not tried, and the solution of a block replaces its list of first values.
+    - ``solutions`` is a table of the values at which fixed-point iteration begins: the keys are unknowns.
+      After the step the table contains the solutions of all blocks. Composition methods ignore this table.
+    - ``near`` contains one list of scalars for each block, at which Newton's method begins. If ``near`` is
+      given, fixed-point iteration is not tried. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, it is called with the name and the value of each computed result,
-    and its return value replaces the result. :class:`NotConverged` is raised if the iteration of a block does
-    not converge. Its message names the block.
+    If ``domain`` has a method ``computed``, each result of an operation is replaced by
+    ``computed(name, value)``, where ``name`` is the name of its variable and ``value`` is the result.
+
+    :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
+    block.
     """
     if program.frame == BODY:
-        # The statements are executed unchanged, with the momentum in the body frame in place of mu. Therefore
-        # only the momentum before the step and the momentum after the step are converted.
+        # The same statements are executed, but ``mu`` is now the momentum in the body frame. It is converted
+        # before the step and after the step.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -69,8 +73,8 @@ def interpret(
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    # Every statement adds its results to the table ``env``. In a block, each sweep (iteration) replaces the
-    # results of the previous sweep.
+    # Every statement writes its results to the table ``env``. The statements of a block are executed in each
+    # sweep (iteration) and overwrite the results of the previous sweep.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
 
@@ -84,7 +88,7 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is used as a queue. Its first entry belongs to this block and is removed, and the
+            # ``near`` is used as a queue. The first entry belongs to this block. It is removed, and the
             # solution is appended. After the last block, the solutions are in the order of the blocks.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
@@ -130,9 +134,10 @@ def outward(
 ) -> tuple[Scalar, ...]:
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
-    ``state`` contains the space momentum mu before the step. ``ends`` are two states, before and after the
-    step, which contain the body momentum. The result is mu plus the change of the space momentum. Rounding
-    errors make q slightly non-orthogonal, but their effect nearly cancels in this change.
+    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
+    step with the body momentum, which is converted to the space momentum. The result is mu plus the
+    difference of the two space momenta. Rounding errors make q slightly non-orthogonal, but the effect
+    nearly cancels in this difference.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -152,7 +157,8 @@ def _composed(
     """
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # The step size h is an attribute of the domain, so each substep needs a copy of the domain.
+        # The step size h is an attribute of the domain. A substep has a different step size, so it uses a
+        # copy of the domain.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
@@ -172,8 +178,8 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # ``expected`` may contain a first value of the unknown, such as its value in an earlier step.
-        # Otherwise the first value is the value of the variable in ``block.starts``.
+        # If ``expected`` contains a value of the unknown, such as the solution in an earlier step, the
+        # iteration begins at this value. Otherwise it begins at the value of the variable ``start``.
         env[unknown] = expected.get(unknown, env[start])
     # ``size`` is the size of the last change of the unknowns. It is None before the first change.
     size: Scalar = None
@@ -193,8 +199,8 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # The attribute is tested and not the class, because a domain may forward its attributes to another
-    # domain.
+    # A domain may forward its attributes to another domain. Therefore the test is for the method
+    # ``increment``, and not for a class.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -247,8 +253,8 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # The increment of the difference quotients is about the square root of the rounding unit. The
-            # next Newton step approximately squares the error, so a change of this size is small enough here.
+            # A change of the size of ``increment`` (about the square root of the rounding unit) is small
+            # enough, because one further Newton step follows and approximately squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
@@ -257,7 +263,7 @@ def _correct(
             images(now)
             if sharp:
                 return now
-            sharp = True  # one further Newton step reduces the error that remains after slow convergence
+            sharp = True  # one further Newton step reduces the remaining error
     raise NotConverged(_unsettled(block, limit, size))
 
 
@@ -278,7 +284,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # For small h the matrix is close to the identity, and a pivot is never small. For large h it may be
+        # For small h the matrix is close to the identity, and no pivot is small. For large h a pivot may be
         # small, so rows are exchanged.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]

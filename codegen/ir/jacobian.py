@@ -1,5 +1,5 @@
-"""Exact Jacobians of expressions by elimination of vertices. Separate computations of the columns would cost
-more.
+"""Exact Jacobians of expressions by elimination of vertices. This method needs fewer operations than a
+separate computation of each column of the Jacobian.
 
 The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
 uses it. Its label is the partial derivative of the node with respect to the argument. When a vertex v is
@@ -45,8 +45,8 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
 
 
 class _Graph:
-    """The graph of the expressions. ``before[v][u]`` and ``after[u][v]`` both contain the label of the edge
-    from u to v.
+    """The graph of the expressions. The label of the edge from u to v is the derivative of v with respect to
+    u. Both ``before[v][u]`` and ``after[u][v]`` contain this label.
 
     The vertices of variables and inner nodes are their node numbers. Only nodes that depend on a variable are
     in the graph. The results are the vertices -1, -2, and so on.
@@ -68,7 +68,7 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # An edge with label 1 leads from the node of each root to the vertex of the result.
+            # An edge with label 1 leads from the node ``root`` to the vertex -1 - i of its result.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
@@ -77,7 +77,7 @@ class _Graph:
             return
         old = self.before[v].get(u)
         # By the chain rule, the contributions of all paths from u to v are added. Two edges from u to v can
-        # therefore be merged to one.
+        # therefore be merged into one edge, whose label is the sum of their labels.
         total = factor if old is None else old + factor
         # An edge with the label zero contributes nothing. It is removed, so that the costs do not count it.
         if total.is_zero:
@@ -87,7 +87,9 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of products that the elimination of v needs: incoming times outgoing edges."""
+        """Return the number of incoming edges of v times the number of outgoing edges. The elimination of v
+        needs this number of products.
+        """
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
