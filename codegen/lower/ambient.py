@@ -11,6 +11,7 @@ from codegen.lower.base import Lowering, Objection, without_formulas
 from codegen.lower.rkmk import with_cutoff
 from codegen.method import Method
 from codegen.scene.ambient import ambient
+from codegen.scene.orbit_projection import orbit_is_open
 from codegen.scene.problem import Problem
 
 
@@ -24,6 +25,10 @@ class Ambient(Lowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return None if the field of the scene has formulas in coordinates, otherwise an objection."""
         return without_formulas(scene)
+
+    def keeps_manifold(self, scene: Problem) -> bool:
+        """Return True if the manifold is an open subset of R^n. A step may leave any other manifold."""
+        return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the equation for the coordinates of the state, as a scene on R^n."""

@@ -100,12 +100,11 @@ class Lowering(ABC):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene, up to rounding errors.
 
-        By default the result is :attr:`orderconds.families.Family.keeps_manifold`. It is also True if the
-        group is abelian, as for R^n.
+        By default the result is :attr:`orderconds.families.Family.keeps_manifold`.
         """
         from orderconds.families import family_class
 
-        return family_class(self.family).keeps_manifold or scene.group.abelian
+        return family_class(self.family).keeps_manifold
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""

@@ -42,9 +42,9 @@ class Taylor(Lowering):
         """Return True if the computed states are on the manifold of the scene.
 
         This is the case if each step ends with a projection onto the manifold. No projection is needed if the
-        manifold is an open subset of R^n, or if the group is abelian.
+        manifold is an open subset of R^n.
         """
-        return scene.group.abelian or reaches_orbit(scene)
+        return reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return an objection to a scene with run-time inputs or without formulas in coordinates.

@@ -1,4 +1,4 @@
-"""Tests whether the projection of a scene's action reaches the orbit of the initial state.
+"""Tests whether the orbit of the initial state is open, and whether the projection of the action reaches it.
 
 The projection is :meth:`Action.to_orbit`. If the action has no formula for a projection, ``to_orbit`` returns
 the point unchanged. This result is correct for an open orbit, because an open orbit contains all points near
@@ -39,9 +39,7 @@ def reaches_orbit(problem: Problem) -> bool:
     """
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))
-    n = field.group.dim
-    units = [tuple(float(i == j) for j in range(n)) for i in range(n)]
-    tangent = _orthonormal([field.action.velocity(d, field.group, x, start) for x in units])
+    tangent = _tangent(field, start)
     axes = [tuple(float(i == j) for j in range(len(start))) for i in range(len(start))]
     for normal in _orthonormal(axes, tangent):
         moved = tuple(y + DISPLACEMENT * x for y, x in zip(start, normal, strict=True))
@@ -50,6 +48,24 @@ def reaches_orbit(problem: Problem) -> bool:
         if math.hypot(*rest) > REDUCED * DISPLACEMENT:
             return False
     return True
+
+
+def orbit_is_open(problem: Problem) -> bool:
+    """Return True if the orbit of the initial state is an open set of the space of coordinates.
+
+    This is the case if the tangent space of the orbit has as many dimensions as the state has coordinates.
+    The orbit of an abelian group need not be open: the orbits of SO(2) in the plane are circles.
+    """
+    field = problem.as_field()
+    start = tuple(map(float, field.initial(FloatDomain(0.0))))
+    return field.group.dim >= len(start) and len(_tangent(field, start)) == len(start)
+
+
+def _tangent(field: Problem, start: Sequence[float]) -> list[list[float]]:
+    """Return an orthonormal basis of the tangent space of the orbit at ``start``."""
+    n, d = field.group.dim, FloatDomain(0.0)
+    units = [tuple(float(i == j) for j in range(n)) for i in range(n)]
+    return _orthonormal([field.action.velocity(d, field.group, x, start) for x in units])
 
 
 def _orthonormal(

@@ -2,10 +2,14 @@
 
 import random
 
+import pytest
+
 from codegen import scenes
 from codegen.emitter import compile_method
 from codegen.ir.domain import ExprDomain, FloatDomain
 from codegen.ir.expr import evaluate, walk
+from codegen.lab.long_runs.long_run import long_run
+from codegen.lower import lowering
 from codegen.scene.ambient import ambient
 
 
@@ -32,3 +36,24 @@ def test_a_step_has_as_many_operations_as_the_velocity_needs():
     operations = sum(n.op not in ("const", "sym") for n in walk(tuple(step.expressions())))
     # Euler's step adds one product and one sum for each coordinate.
     assert operations <= velocity + 2 * len(symbols) + 2
+
+
+@pytest.mark.parametrize(
+    ("scene", "kept"),
+    [
+        ("duffing", True),
+        ("duffing_sl2", True),
+        ("free_rigid_body", False),
+        ("circle", False),
+        ("torus_gradient_flow", False),
+    ],
+)
+def test_runge_kutta_in_coordinates_keeps_open_manifolds_only(scene, kept):
+    """The groups of the circle and of the torus are abelian, but steps in coordinates leave both."""
+    assert lowering("ambient").keeps_manifold(scenes.load(scene)) is kept
+
+
+def test_a_step_in_coordinates_leaves_the_circle():
+    run = long_run(compile_method("circle", "ambient:rk4"), 0.2, 200, back=False)
+    (manifold,) = [kept.drift.largest for kept in run.kept if kept.name == "manifold"]
+    assert manifold > 1e-8
