@@ -37,7 +37,7 @@ class Drift(Flow):
         return tuple(evaluate(self.velocity, d, dict(values))), (d.rational(0),) * group.dim
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a short description of the flow."""
         return "drift"
 
 

@@ -1,8 +1,9 @@
-"""The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
+"""The field of a Hamiltonian as the sum of the fields of its parts.
 
 Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
 element q. If the exact flow of a part is known, there is a shorter formula for the field of this part. Both
-formulas have equal values on the group.
+formulas have equal values on the group. The sum of the shorter formulas is used if it needs fewer operations
+than the formula for the whole Hamiltonian.
 """
 
 from __future__ import annotations
@@ -21,9 +22,11 @@ from codegen.scene.problem import TIME, Problem
 def with_field_by_parts(problem: Problem) -> Problem:
     """Return the problem with its field written as the sum of the fields of the parts.
 
-    The problem is returned unchanged if it has no parts, if the flow of a part is unknown, or if the sum does
-    not need fewer operations. It is also returned unchanged if the scene gives formulas for flows, or has
-    run-time inputs or external forces.
+    The problem is returned unchanged in the following cases:
+
+    - It has no parts, or the flow of a part is unknown.
+    - The sum would not reduce the number of operations.
+    - The scene gives formulas for flows, or has run-time inputs or external forces.
     """
     if problem.hamiltonian is None or not problem.parts:
         return problem

@@ -36,5 +36,5 @@ class Isotropic(Flow):
         return tuple(rate * m for m in mu), (d.rational(0),) * group.dim
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a short description of the flow."""
         return "rotation about the momentum"

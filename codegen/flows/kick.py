@@ -19,7 +19,8 @@ class Kick(Flow):
     """The flow of a potential H = V(q): q is constant, and the momentum mu increases by tau n in the time
     tau.
 
-    The components of the force n are n_a = -<dV, e_a.q> for the basis e_a of the Lie algebra.
+    The force n has the components n_a = -d/deps V(exp(eps e_a) q) at eps = 0, where e_a are the basis
+    elements of the Lie algebra.
     """
 
     force: tuple[Expr, ...]
@@ -28,18 +29,18 @@ class Kick(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q, mu + tau n) with the force n."""
+        """Return (q, mu + tau n), where n is the force."""
         n: list[S] = evaluate(self.force, d, dict(values))
         return q, tuple(m + tau * x for m, x in zip(mu, n, strict=True))
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (0, n) with the force n."""
+        """Return (0, n), where n is the force."""
         return (d.rational(0),) * group.dim, tuple(evaluate(self.force, d, dict(values)))
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a short description of the flow."""
         return "kick"
 
 

@@ -57,23 +57,25 @@ class Linear(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the two halves of z' = L z + c, where z = (q, mu)."""
+        """Return the derivatives (q', mu'), computed as z' = L z + c with z = (q, mu)."""
         z = (*q, *mu)
         rows = [_applied(d, row, z, c) for row, c in zip(self.matrix, self.constant, strict=True)]
         rates: Vector[S] = tuple(d.rational(0) if rate is None else rate for rate in rows)
         return rates[: len(q)], rates[len(q) :]
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a short description of the flow."""
         return "linear flow"
 
 
 def recognise(formula: Formula) -> Part | None:
     """Return the part with the flow of the linear equation z' = L z + c, where z = (q, mu).
 
-    L is J times the Hessian of the part, where J = (0, 1; -1, 0). The result is None if the group is not
-    abelian. If the part is not quadratic, or if L^2 is not diagonal or has a positive entry, the result is a
-    :class:`Part` that has no flow.
+    The matrix L is J times the Hessian matrix of the part. J is the block matrix with the rows (0, I) and
+    (-I, 0), where I is the identity matrix.
+
+    The result is None if the group is not abelian. In the following cases the result is a :class:`Part` that
+    has no flow: the part is not quadratic, L^2 is not diagonal, or L^2 has a positive entry.
     """
     if not formula.problem.group.abelian:
         return None
@@ -92,7 +94,9 @@ def recognise(formula: Formula) -> Part | None:
     n = range(len(L))
     square = [[sum((L[i][k] * L[k][j] for k in n), Fraction(0)) for j in n] for i in n]
     if any(square[i][j] for i in n for j in n if i != j) or any(square[i][i] > 0 for i in n):
-        return formula.refused("the square of its matrix is not diagonal, or has a positive entry")
+        return formula.refused(
+            "the square of the matrix of its linear equation is not diagonal, or has a positive entry"
+        )
     squares = tuple(-square[i][i] for i in n)
     return formula.whole(Linear(tuple(map(tuple, L)), tuple(c), squares))
 

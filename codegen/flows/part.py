@@ -53,13 +53,15 @@ class Part:
 
     @property
     def exact(self) -> bool:
-        """True if the part is a single summand, so that the exact flow of the part is known."""
+        """True if the part has exactly one summand. The exact flow of this summand is then the exact flow of
+        the part.
+        """
         return len(self.summands) == 1
 
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, with the derivatives that are needed to recognise its flow."""
+    """The formula of one part of a Hamiltonian, with the derivatives that are used to recognise its flow."""
 
     problem: Problem
     name: str
@@ -100,7 +102,9 @@ class Formula:
 
     @cached_property
     def orbit(self) -> Orbit:
-        """Sample points of the problem. Two formulas count as equal if they agree at all these points."""
+        """The sample points at which formulas of the problem are compared. Two formulas count as equal if
+        they agree at all these points.
+        """
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:

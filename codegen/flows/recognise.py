@@ -2,7 +2,8 @@
 
 Each kind of flow has a function that examines the formula of a part. If the part has a flow of this kind, the
 function returns the part with its flow. If the part may have a flow of another kind, the function returns
-None. If no kind is possible, the function returns a part that has no flow. Its attribute ``reason`` says why.
+None. If the function finds that the part has no flow of any kind, it returns a part without a flow. The
+attribute ``reason`` of this part says why.
 
 The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
 quadratic functions of q and the momentum have linear flows. On groups other than R^n a quadratic function of

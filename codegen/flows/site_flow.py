@@ -56,7 +56,7 @@ class SiteFlow(Flow):
         raise ArithmeticError("the field of a lattice cannot be computed for a single site")
 
     def text(self) -> str:
-        """Return a description of the motion."""
+        """Return a short description of the flow."""
         return "exp(tau x) for a constant element x of the Lie algebra"
 
 
@@ -90,8 +90,8 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick may depend on time for two reasons: the forces depend on time, or the scene prescribes states
-    # beyond the ends of the lattice that depend on time.
+    # The kick depends on the time if a force depends on the time. It also depends on the time if a state that
+    # the scene prescribes outside the lattice depends on the time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -26,7 +26,7 @@ class Stated(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q, mu) after the time tau, computed by the formulas."""
+        """Return (q, mu) after the time tau. These values are computed by the formulas of the scene."""
         state: Vector[S] = tuple(evaluate(self.formulas, d, {**values, TAU: tau}))
         return state[: len(q)], state[len(q) :]
 
@@ -37,11 +37,11 @@ class Stated(Flow):
         raise ArithmeticError("the scene gives formulas for the flow of the part, but none for the field")
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a short description of the flow."""
         return "given by formulas in the scene"
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with the flow that the scene gives by formulas, or None if the scene gives no flow."""
+    """Return the part with its flow if the scene gives formulas for this flow. Otherwise return None."""
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

@@ -1,7 +1,8 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
-P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The function P.BP/2 is equal to
-the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are numbers, and e_k are fixed vectors.
+P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Let B be a constant symmetric
+matrix. The function P.(B P)/2 is equal to the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
+numbers, and e_k are fixed vectors.
 
 - The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
 - The flow of c P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
@@ -42,13 +43,14 @@ def recognise(formula: Formula) -> Part | None:
     for body in (True, False):
         if _is_form(formula, B, w, body):
             return Part(formula.name, tuple(_summands(formula, B, w, body)))
-    return formula.refused("it is not a quadratic function of the momentum in the body or in space")
+    return formula.refused("it is not a quadratic function of the momentum in the body or space frame")
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if the part is equal to P.BP/2 + w.P plus a constant, where P is the momentum.
+    """Return True if the part is equal to P.(B P)/2 + w.P plus a constant number.
 
-    The momentum is P = Ad*_q mu in the body frame if ``body`` is true, otherwise P = mu in the space frame.
+    The momentum is P = Ad*_q mu in the body frame if ``body`` is true, otherwise P = mu in the space frame. B
+    and w are the arguments ``B`` and ``w``.
     """
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
@@ -101,7 +103,8 @@ def _invariant(group: LieGroup) -> bool:
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
     """Return the turns of a part that also contains the linear term w.P, where P is the momentum.
 
-    If the axis of a turn is parallel to w, w.P becomes the offset of this turn. Otherwise a turn is added.
+    If the axis of a turn is parallel to the vector w, the term w.P is included in this turn as its offset.
+    Otherwise a turn about the axis w is added.
     """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)

@@ -34,8 +34,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the new state: (q g, mu) for an axis fixed in the body, else (g q, Ad*_{g^-1} mu).
 
-        Here e is the axis, and g is exp(a e). The angle of the turn is a = tau (r e.P + c), where r is
-        ``rate`` and c is ``offset``.
+        Let e be ``axis``, r ``rate``, c ``offset``, and P the momentum in the frame of the axis. The angle of
+        the turn is a = tau (r e.P + c), and the group element g is exp(a e).
         """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
@@ -49,9 +49,12 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the velocity xi and the force n.
 
-        The angular speed is s = r e.P + c, where r is ``rate`` and c is ``offset``. For an axis fixed in
-        space, xi is s e, and n is 0. For an axis fixed in the body, xi is s Ad_q e, and n is ad*_xi mu. The
-        momentum is then constant, because mu' = n - ad*_xi mu = 0.
+        Let e be ``axis``, r ``rate``, c ``offset``, and P the momentum in the frame of the axis. The angular
+        speed is s = r e.P + c.
+
+        - If the axis is fixed in space, xi = s e and n = 0.
+        - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. The momentum mu is then constant,
+          because mu' = n - ad*_xi mu = 0.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
@@ -67,7 +70,7 @@ class Turn(Flow):
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
         """Return the angular speed r e.P + c, where r is ``rate`` and c is ``offset``.
 
-        Here e.P is the dot product of mu and ``axis``, both in the space frame.
+        The number e.P is computed as the dot product of mu and ``axis``, both in the space frame.
         """
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
@@ -76,6 +79,6 @@ class Turn(Flow):
         return speed
 
     def text(self) -> str:
-        """Return a name of the motion for messages and headers."""
+        """Return a short description of the turn for messages and headers."""
         axis = ", ".join(map(str, self.axis))
         return f"turn about the axis ({axis}) fixed in {'the body' if self.body else 'space'}"

@@ -48,18 +48,18 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Simplify a product of functions of t.
 
-    Factors that cancel are removed, and all exponentials are joined to one. The rule
+    Factors that cancel are removed, and all exponentials are combined into one exponential. The rule
     exp(-s t) dexp(s t) = dexp(-s t) is also applied.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
     # The factors commute. A product is therefore determined by the exponent of each distinct function. The
-    # key of ``powers`` is (function, scale, order). The exponentials together are exp(``rate`` t).
+    # key of ``powers`` is (function, scale, order). The product of all exponentials is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
-        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}. For dexp and dexpinv there is no such rule.
+        # Exponentials are combined: e^{at} e^{bt} = e^{(a+b)t}. For dexp and dexpinv there is no such rule.
         if f.function == "exp":
             rate += f.scale * f.power
         else:
@@ -67,8 +67,8 @@ def simplified(word: Word) -> Word:
             powers[key] = powers.get(key, 0) + f.power
     # The loop adds keys to ``powers``, so it runs over a copy of the entries.
     for (function, scale, order), n in list(powers.items()):
-        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). This rule is applied at most once, because
-        # it removes the only exponential.
+        # The rule is exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). It is applied at most once,
+        # because only one exponential is left at this point, and the rule removes it.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1

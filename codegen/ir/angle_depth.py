@@ -1,4 +1,4 @@
-"""The length of the longest chain of rotation angles in a step, called its depth.
+"""The depth of a step: the length of its longest chain of rotation angles.
 
 In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. Each angle of
 the chain multiplies the rounding errors. The largest angle that a step accepts therefore depends on the depth
@@ -19,8 +19,9 @@ def chain(kernel: Kernel) -> int:
     The depth is the largest number of Stumpff functions that are nested in one another, but at least 1.
 
     A kernel with implicit equations has depth 1. Each iteration for such equations reduces the errors of all
-    angles, so a chain of angles does not multiply rounding errors. The depth is also 1 if the last flow of
-    each step is joined with the first flow of the next step.
+    angles, so a chain of angles does not multiply rounding errors. The depth is also 1 for a
+    splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`). There an error that one flow
+    adds to an angle is not multiplied by the next flow.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -36,8 +37,8 @@ def chain(kernel: Kernel) -> int:
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # Only the outputs matter, because they are the new state. The depth is at least 1, because the bound of
-    # the angle is divided by the depth.
+    # Only the outputs matter, because they are the new state. The depth is at least 1, because
+    # :func:`codegen.snippets.stumpff.limit` divides a number by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 

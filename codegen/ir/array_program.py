@@ -22,7 +22,7 @@ differ from every name that a user can choose.
 """
 
 Arrays = MutableMapping[str, list[Scalar]]
-"""A table from the name of each array to its entries, row by row."""
+"""A dictionary of arrays. It maps the name of an array to the entries of the array, row by row."""
 
 
 @dataclass(frozen=True)
@@ -45,14 +45,15 @@ class Matrix:
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the index in the array of the entry (``row``, ``column``)."""
+        """Return the position of the entry (``row``, ``column``) in the array ``name``."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the submatrix of the size ``rows`` x ``columns`` whose first entry is (``row``,
-        ``column``).
+        """Return the submatrix with ``rows`` rows and ``columns`` columns. It begins in row ``row`` and
+        column ``column`` of this matrix.
         """
-        # The submatrix is stored in the same array, so the distance between its rows is the same.
+        # The submatrix and this matrix are stored in the same array, so the distance between
+        # successive rows is equal.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -81,8 +82,8 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A constant matrix. If it is banded, ``diagonals`` contains its entries. Otherwise ``full`` contains all
-    entries, as a formula or row by row.
+    """A constant matrix. If it is banded, ``diagonals`` contains its entries. Otherwise ``full`` is a
+    formula for all entries, or a tuple of all entries, row by row.
     """
 
     name: str
@@ -93,7 +94,7 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """One formula or tuple of numbers for each diagonal, or for the full matrix."""
+        """The entries of each diagonal. If the matrix is full, the only element is ``full``."""
         # If the matrix is full, ``diagonals`` is empty.
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
@@ -113,8 +114,9 @@ class ConstantMatrix:
         return self.rows * self.columns
 
     def values(self, domain: Domain, symbols: Mapping[str, Scalar]) -> Iterator[tuple[int, int, Scalar]]:
-        """Yield (row, column, value) for each entry that may be non-zero. ``symbols`` contains the values of
-        the symbols in formulas, and each value is a scalar of ``domain``.
+        """Yield (row, column, value) for each entry that may be non-zero.
+
+        ``symbols`` maps the symbols in formulas to their values. All values are scalars of ``domain``.
         """
         for diagonal in self.diagonals:
             # A diagonal with a negative offset begins in row -offset, because column indices begin at 0.
@@ -135,11 +137,11 @@ def _valued(
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     # The formula is evaluated twice. The first evaluation replaces only the row and column indices by
-    # numbers. The table ``kept`` leaves all other symbols unchanged.
+    # numbers. All other symbols remain, because ``kept`` maps them to themselves.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The formula may select a branch by a comparison of indices. Power series cannot always be compared.
-        # Therefore this first evaluation makes the selection with exact integers.
+        # The formula may select a branch by a comparison of indices. The first evaluation compares exact
+        # integers. Scalars of ``domain`` may be power series, which cannot always be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -150,7 +152,7 @@ class Multiplication:
     """The statement target = L R, or target = target + L R if ``added`` is true.
 
     L is the matrix ``left``, or its transpose if ``left_transposed`` is true. R is the matrix ``right``, or
-    its transpose if ``right_transposed`` is true. The array of the target contains neither L nor R.
+    its transpose if ``right_transposed`` is true. L and R are not stored in the array of the target.
     """
 
     target: Matrix
@@ -193,8 +195,8 @@ class Term:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """The number of rows and the number of columns of the matrix, after a transposition if there is
-        one.
+        """The number of rows and the number of columns of ``matrix``, or of its transpose if ``transposed``
+        is true.
         """
         m = self.matrix
         return (m.columns, m.rows) if self.transposed else (m.rows, m.columns)
@@ -214,7 +216,7 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function from a matrix of a program to the matrix that replaces it."""
+"""A function that replaces a matrix of a program. It returns the new matrix."""
 
 
 @dataclass(frozen=True)
@@ -237,7 +239,7 @@ class ArrayProgram:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the constant matrices in the statements, each once, in the order of first use."""
-        # The dictionary keeps the order of insertion.
+        # ``dict.fromkeys`` removes duplicates and keeps the order of first use.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def evaluate(
@@ -263,8 +265,8 @@ class ArrayProgram:
         # Without the prefix ``name``, an intermediate array could have the same name as an array of the
         # program that will contain the statements.
         def now(matrix: Matrix) -> Matrix:
-            # ``argument`` and ``result`` are matrices of the program that will contain the statements. They
-            # keep their names.
+            # ``argument`` and ``result`` are matrices of the program that will contain the statements, so
+            # their names get no prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -295,7 +297,7 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first assignment to a part of an array creates the array. This first part must be the whole array.
+    # The first assignment to an array creates the array. Its target must be the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -325,15 +327,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # Let r and c be ``row`` and ``column``. For M C, column r of M times the entry C_rc is added to
-        # column c of the result.
+        # The entry a of the constant matrix C is in row r = ``row`` and column c = ``column`` of C. For the
+        # product M C, a times column r of M is added to column c of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For C M, the entry C_rc times row c of M is added to row r of the result.
+            # For the product C M, a times row c of M is added to row r of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values

@@ -69,8 +69,9 @@ class Move:
         """The numbers of additions and multiplications if the series of phi has :data:`TERMS` terms."""
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The four summands belong to G S, to the norm of G S, to G C, and to S phi(G S) G C. Each term of phi
-        # needs one product by G S.
+        # The four summands count the multiplications for G S, for the norm of G S, for G C, and for
+        # S phi(G S) G C (see the beginning of this module). The last summand consists of one multiplication
+        # by the matrix G S for each term of phi, and one by S.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -102,7 +103,7 @@ class ArrayStep:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the constant matrices in the statements, each once, in the order of first use."""
-        # The dictionary keeps the order of insertion.
+        # ``dict.fromkeys`` removes duplicates and keeps the order of first use.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:
@@ -113,12 +114,12 @@ class ArrayStep:
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
-                    # One number is added to each entry of the diagonal.
+                    # A number is added to each diagonal entry of ``target``.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations
                 case _:
                     own = operations(statement)
-            # ``own`` may have no entry ``mul``, if the statement has no products.
+            # For :class:`AddUnit`, ``own`` has no entry ``mul``, because no multiplications are needed.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

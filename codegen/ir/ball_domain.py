@@ -1,9 +1,11 @@
-"""An arithmetic with many digits, based on Arb balls. It replaces :class:`codegen.ir.domain.PreciseDomain`.
+"""An arithmetic with many digits, based on Arb balls.
 
-An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers. A ball
-is a midpoint with an error radius. The radii would grow without bound in iterations. After each operation of
-a step program (such as exp or Ad) the ball is therefore replaced by its midpoint. Hence the results have no
-rigorous error bounds.
+It is a faster alternative to :class:`codegen.ir.domain.PreciseDomain`. An operation on two Arb balls is
+about six times faster than the same operation on two mpmath numbers.
+
+A ball is a midpoint with an error radius. The radii would grow without bound in iterations. After each
+operation of a step program (such as exp or Ad) the ball is therefore replaced by its midpoint. Hence the
+results have no rigorous error bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.
@@ -39,26 +41,26 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""The number of guard bits: the working precision has this number of bits more than the requested digits."""
+"""The number of guard bits. They are added to the bits that the requested number of digits needs."""
 
 
 class BallDomain:
-    """The arithmetic of Arb balls with ``digits`` decimal digits, in which scalars are midpoints of balls.
+    """An arithmetic with ``digits`` decimal digits. Its scalars are midpoints of Arb balls.
 
     ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
-    scalars, and :meth:`mpf` converts a scalar to an mpmath number. OverflowError is raised if an argument of
-    a function is 2^:data:`codegen.ir.domain.LARGEST_BITS` or more.
+    scalars, and :meth:`mpf` converts a scalar to an mpmath number. OverflowError is raised if an argument x
+    of a function has abs(x) >= 2^n, where n is :data:`codegen.ir.domain.LARGEST_BITS`.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         self.digits = digits
         self.bits = math.ceil(digits * BITS_PER_DIGIT) + GUARD
         with self.precision():
-            # The guard bits do not count as correct bits, so eps is about 10^-digits.
+            # eps is 2^-b, where b is the working precision without the guard bits. It is about 10^-digits.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # After this number of sweeps without convergence, Newton's method replaces a fixed-point iteration,
-        # as in :class:`codegen.ir.domain.PreciseDomain`.
+        # If a fixed-point iteration has not converged after this number of sweeps, Newton's method is used.
+        # The same is true in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -136,7 +138,8 @@ class BallDomain:
 
         The exponential of A + e E, with e^2 = 0, is computed from the block matrix with the rows (A, E) and
         (0, A). ZeroDivisionError is raised for the inverse of a singular matrix. OverflowError is raised for
-        the exponential of a matrix with entries above 2^40.
+        the exponential of a matrix if an argument is not finite, or if an entry of the matrix has an absolute
+        value of 2^40 or more.
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
@@ -145,7 +148,7 @@ class BallDomain:
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(
-                    "the exponential is computed only for a matrix with finite entries of at most 2^40"
+                    "the exponential of a matrix needs finite entries with absolute values below 2^40"
                 )
             # Cancellation in the series of the exponential loses up to about 3 bits for each unit of the
             # norm. The working precision is therefore increased by 64 + 3 * norm bits, but by at most 64 +
@@ -155,13 +158,15 @@ class BallDomain:
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
             return tuple(x.mid() for x in _first_row(result, called.level))
         if isinstance(called, ExponentialAction):
-            # This domain forms the matrix exp(A) and multiplies it by y. Emitted code never forms exp(A).
+            # The result is exp(A) y with a matrix A and a vector y. This domain computes the matrix exp(A).
+            # Emitted code never computes this matrix.
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
-                # The terms of the sums may cancel. With twice the number of bits the sums remain accurate.
+                # Each entry of exp(A) y is a sum whose terms may cancel. With twice the number of bits the
+                # sums remain accurate.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
@@ -240,12 +245,15 @@ class BallDomain:
         """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
         ``new``.
 
-        It has converged if the change is zero, or if the change is at most 2^12 rounding units and is not
-        smaller than ``previous``, the size of the previous change.
+        The iteration has converged if the change is zero. It has also converged if the change satisfies two
+        conditions:
+
+        - It is at most 2^12 eps max(1, m), where m is the largest absolute value of the numbers in ``old``.
+        - It is not smaller than ``previous``, the size of the previous change.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
-        # For a NaN all comparisons below are false. Without this test the iteration would go on up to its
-        # limit.
+        # For a NaN all comparisons below are false. Without this test the iteration would continue up to the
+        # largest permitted number of sweeps.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
         # The factor 4096 = 2^12 allows for the accumulated rounding errors of all operations of a sweep.
@@ -267,7 +275,7 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of the numbers is the jet A of the next lower level. The second half is its derivative E.
+    # The first half of ``numbers`` is a jet A of level ``level`` - 1. The second half is the derivative of A.
     half = len(numbers) // 2
     a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
@@ -275,13 +283,14 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Invert :func:`_block`: return the entries of the jet that is represented by the block matrix
-    ``rows``.
+    """Return the entries of a jet (a matrix with its derivatives) from the rows of its block matrix.
+
+    This is the inverse function of :func:`_block`.
     """
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
-    # The first block row (A, E) contains the whole jet. The second block row (0, A) repeats a part of it.
+    # The first block row (A, E) contains all entries of the jet. The second block row is (0, A).
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
 

@@ -4,7 +4,7 @@
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
 is not a linear combination itself. Numeric factors are moved from products and powers to the coefficients of
 the linear combination, and from there to the numerators of quotients. For example, 3/2 (1/sqrt x)^3 becomes
-(3/2)/(x sqrt x). The result is used only if it has fewer operations.
+(3/2)/(x sqrt x). The result is used if it has fewer operations than the given expressions.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ For a constant term the atom is the expression 1.
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the expressions ``roots`` with their constants combined.
 
-    If the new form does not have fewer operations, the given expressions are returned. The expressions in
-    ``kept`` and their multiples are not expanded.
+    If this does not reduce the number of operations, ``roots`` is returned unchanged. The expressions in
+    ``kept`` are not expanded. Only their numeric factors may be combined with other numbers.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -37,19 +37,20 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # ``bare`` contains the expressions in ``kept`` without their numeric factors. These factors may be
-    # combined with other numbers.
+    # ``bare`` contains the expressions in ``kept`` without their numeric factors. For example, only x is not
+    # expanded if ``kept`` contains 3 x. The factor 3 may be combined with other numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # A node in ``kept`` is not expanded: its linear combination is 1 times the node itself.
+            # A node in ``bare`` is not expanded: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # At this point ``sums`` contains only the nodes in ``kept``. They are not counted as operations.
+    # At this point the keys of ``sums`` are the nodes that are not expanded. The operations in these nodes
+    # are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
-    # The combined form may need more operations, because it may have fewer shared subexpressions. If both
-    # forms have the same number of operations, the given form is used, because earlier compiler passes have
-    # chosen it.
+    # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
+    # If both need the same number of operations, ``roots`` is returned. Earlier compiler passes have chosen
+    # this form.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -72,8 +73,9 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n that should be rewritten as quotients 1/(x^m sqrt x) with n = 2 m + 1.
 
-    Let y = 1/sqrt x. A power of y that is only a factor of other powers of y is called an intermediate value.
-    The powers of y are rewritten only if all powers except intermediate values have odd exponents n >= 3.
+    Let y = 1/sqrt x. A power of y is called an intermediate value if it occurs only as a factor of other
+    powers of y. If all other powers of y have odd exponents n >= 3, the powers of y are rewritten. Otherwise
+    no power of this y is rewritten.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
@@ -93,26 +95,27 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the powers of y without intermediate values. For example, y^2 is an intermediate value
-    # if it occurs only as a factor of y^3.
+    # ``read`` contains the pair (node number of y, n) for each power y^n that is not an intermediate value.
+    # For example, y^2 is an intermediate value if it occurs only as a factor of y^3.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y itself or an even power of y is in ``read``, no power of this y is rewritten.
+    # If ``read`` contains a pair of y with n = 1 or with an even n, no power of this y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node equals c y^n with a number c and one expression y = 1/sqrt(x).
+    """Return True if a node equals c y^n, where c is a number and y = 1/sqrt(x).
 
-    ``inside`` contains the pair (node number of y, exponent) for each argument of the node that is a power of
-    such an expression.
+    Some arguments of the node may be such powers, with equal or different y. For each of them, ``inside``
+    contains the pair (node number of y, exponent).
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
 
 def _is_inverse(node: Expr) -> bool:
-    # A node is an inverse if it is a quotient with the numerator 1. Equal expressions are the same object.
+    # A node is an inverse if it is a quotient with the numerator 1. Equal expressions are the same object,
+    # so ``is`` compares them.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -125,7 +128,8 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return the expression ``root`` with its constants combined."""
-        # ``walk`` yields the arguments of a node before the node, so their linear combinations are known.
+        # ``walk`` yields the arguments of a node before the node. Hence ``sums`` already contains the linear
+        # combinations of the arguments.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 # The linear combination of a node is stored, so that all expressions that contain it can use
@@ -136,8 +140,8 @@ class _Gathering:
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        A term c (1/y) is written as (c/e) (e/y). All terms with the same y use the same number e. It is the
-        absolute value of the first coefficient c.
+        A term c (1/y) is written as (c/e) (e/y). The number e is the same for all terms with the same y. It
+        is the absolute value of the coefficient c in the first of these terms.
         """
         if node.id not in self.written:
             # The expression is built only once, so that it stays a shared subexpression.
@@ -185,7 +189,7 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # (c x)(d y) = (c d)(x y). The atom is x y, and its coefficient is c d.
+            # The product (c x)(d y) with numbers c and d becomes c d times the atom x y.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -195,8 +199,8 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination. A method such as ``Space.div`` may simplify the node to a
-        # linear combination, so the node is created without such a method.
+        # An atom must not be a linear combination. ``Space.div`` and similar methods may simplify an
+        # expression to a linear combination. ``Space._make`` creates the atom without simplification.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 

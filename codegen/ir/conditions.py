@@ -68,7 +68,8 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
         # The operands of And and Or are sorted, because their order in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
-        # For Or, ``total`` is the condition that no operand is true. Its negation is Or (De Morgan's rule).
+        # For Or, the operands were negated, so ``total`` means that no operand is true. The negation of
+        # ``total`` means that at least one operand is true (De Morgan's rule).
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
         raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)

@@ -45,9 +45,11 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    ``moving`` contains the ids of all nodes that depend on the variables of the differentiation. If it is
-    given, the derivatives of vector functions with respect to constant arguments are set to zero without
-    computing them. :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
+    ``moving`` contains the ids of all nodes that depend on the variables by which the caller differentiates.
+    If it is given, the derivatives of a vector function with respect to other nodes are not computed. They
+    are replaced by zero.
+
+    :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
     match node.op:
@@ -58,7 +60,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # The derivatives of a/b are 1/b and -(a/b)(1/b), so one further division is sufficient.
+            # The derivatives of a/b are 1/b and -(a/b)(1/b). The node is a/b, so only the division 1/b is
+            # added.
             inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
@@ -107,7 +110,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # c_0' = -c_1/2. This rule also holds for the signed functions, whose argument may be negative.
+        # The Stumpff function c_0 has the derivative -c_1/2. The same rule is valid for the signed functions,
+        # whose argument may be negative.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -148,8 +152,7 @@ def _selection(node: Expr) -> list[Expr]:
     if not formulas:
         return [sign(x)]
     # A small change of x usually does not change the selected formula, so the derivative with respect to x is
-    # 0. If a or b is a constant, its own derivative is 0, and the chain rule does not need its factor. This
-    # factor is set to 0.
+    # 0. The derivative with respect to a constant a or b is not needed and is also set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

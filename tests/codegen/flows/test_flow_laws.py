@@ -157,7 +157,10 @@ def test_a_stated_flow_has_no_field():
             lambda q, p: p[0] ** 2 * q[0],
             "it is not a quadratic function of q and mu with constant coefficients",
         ),
-        (lambda q, p: p[0] * q[0], "the square of its matrix is not diagonal, or has a positive entry"),
+        (
+            lambda q, p: p[0] * q[0],
+            "the square of the matrix of its linear equation is not diagonal, or has a positive entry",
+        ),
     ],
 )
 def test_a_part_without_closed_form_has_a_reason(H, reason):

@@ -322,8 +322,8 @@ def test_what_cannot_be_split_is_told():
     scene = HamiltonianScene(H=mu.dot(mu) + mixed, parts={"T": mu.dot(mu), "V": mixed}, **start)
     message = refused(scene, "splitting:strang")
     assert (
-        "the part V has no exact flow: it is not a quadratic function of the momentum in the body or in space"
-        in message
+        "the part V has no exact flow: "
+        "it is not a quadratic function of the momentum in the body or space frame" in message
     )
     assert "the tableau is for 3 parts, but the scene has 2;" in refused(
         SCENES["symmetric top"](), "splitting:strang3"
@@ -340,8 +340,9 @@ def test_what_cannot_be_split_is_told():
         both, "splitting:strang"
     )
     hyperbolic = particle(lambda q, p: p.dot(p) / 2 - q.dot(q) / 2, lambda q, p: q[0] ** 3)
-    assert "the square of its matrix is not diagonal, or has a positive entry" in refused(
-        hyperbolic, "splitting:strang"
+    assert (
+        "the square of the matrix of its linear equation is not diagonal, or has a positive entry"
+        in refused(hyperbolic, "splitting:strang")
     )
     assert "the tableau rk4 has the format rk, which these families cannot use: splitting" in refused(
         SCENES["symmetric top"](), "splitting:rk4"
