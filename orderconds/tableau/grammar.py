@@ -13,9 +13,9 @@ parser reads the expressions, and no text is executed as code.
 
 ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) whose radius is one unit
 of the last digit. The double ``0.3333333333333333d`` denotes a ball whose radius is a few rounding errors
-(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because some programs read ``a^b^c`` as (a^b)^c
-and other programs as a^(b^c). This module bounds the length of the text, the nesting and the exponents. The
-module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
+(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because it is ambiguous: it may mean (a^b)^c or
+a^(b^c). This module bounds the length of the text, the nesting and the exponents. The module
+:mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
 """
 
 from __future__ import annotations
@@ -44,15 +44,16 @@ _TOKEN = re.compile(
 
 
 class Constant(Struct, frozen=True, cache_hash=True):
-    """A rational number if ``unit`` is zero, and otherwise the ball of radius ``unit`` around the number."""
+    """An exact number or a ball. If ``unit`` is zero, the constant is the rational number ``value``.
+    Otherwise, it is the ball with the centre ``value`` and the radius ``unit``."""
 
     value: Fraction
     unit: Fraction = Fraction(0)
 
     @property
     def is_double(self) -> bool:
-        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is a power of
-        ten. The radius of a double is not a power of ten."""
+        """True if the number was given as a double. The radius ``unit`` shows this: it is a power of ten for
+        a rounded decimal, but not for a double."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
@@ -67,8 +68,8 @@ class Chain(Struct, frozen=True, cache_hash=True):
     """Operands that are combined from left to right by ``operators``. A chain contains either the operators +
     and -, or the operators * and /.
 
-    Long sums and products are therefore not nested. Only parentheses increase the nesting depth of an
-    expression.
+    A long sum or product is one chain, so its length does not increase the nesting depth of an expression.
+    Only parentheses increase the depth.
     """
 
     operators: tuple[str, ...]
@@ -155,8 +156,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 def _constant(x: Constant) -> str:
     """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
-    ``~``. An exact number is printed as a decimal if its expansion is finite, and otherwise as a fraction in
-    parentheses."""
+    ``~``. An exact number is printed as a decimal if its decimal expansion is finite, and otherwise as a
+    fraction in parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -316,8 +317,8 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Return the double nearest to a decimal, together with its uncertainty. Only zero has no
-        uncertainty. Raises TableauError if the decimal is too large for a double."""
+        """Return the double nearest to a decimal, together with its uncertainty. The uncertainty of
+        the number 0 is zero. Raises TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

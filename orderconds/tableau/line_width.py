@@ -55,7 +55,7 @@ def width(latex: str) -> float:
 
 
 class _Reader:
-    """The computation of the width of a formula, token by token."""
+    """Reads the tokens of a formula and adds their widths."""
 
     def __init__(self, latex: str) -> None:
         self.tokens = _TOKEN.findall(latex)
@@ -146,8 +146,8 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return a list in brackets as text, split into one part for each entry. A line break is allowed between
-    two parts.
+    """Return several texts, one for each entry of a list. Together, the texts are the list in brackets. A
+    line break is allowed between two texts.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

@@ -27,7 +27,8 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide whether x = y. An object is equal to itself, even if the object is a ball (interval)."""
+    """Decide whether x = y. If x and y are the same object, the result is True. For a ball (interval), the
+    difference x - x could not prove this equality."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -56,7 +57,8 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
+    """Return True if the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j for all i and j (HLW Theorem
+    VI.4.3).
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -72,7 +74,8 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
     """Return True if a partitioned method is symplectic for separable Hamiltonians H = T(p) + V(q).
 
-    The condition is b_i ahat_ij + bhat_j a_ji = b_i bhat_j (HLW Theorem VI.4.6).
+    The condition is b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j, where ahat_ij and bhat_j are the
+    entries of ``A_hat`` and ``b_hat`` (HLW Theorem VI.4.6).
 
     >>> from orderconds.ring import QQ
     >>> half, one = QQ.rational(1, 2), QQ.one
@@ -115,8 +118,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last. Such a method is stiffly accurate and has more than
-    one stage. Its first stage is the start value.
+    """Return True if the method is first-same-as-last: the method has more than one stage, its first stage
+    equals the start value, and it is stiffly accurate.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -154,9 +157,10 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    A composition of s pairs consists of steps alpha_i h of a basic method and beta_i h of its adjoint. The
-    composition is symmetric if alpha_{s+1-i} = beta_i for all i. A splitting is symmetric if the list of its
-    flows is a palindrome. For Magnus methods, see :mod:`orderconds.tableau.reversal`.
+    For i = 1, ..., s, a composition of s pairs applies the adjoint of a basic method with the step size
+    beta_i h, and then the basic method with the step size alpha_i h. The composition is symmetric if
+    alpha_{s+1-i} = beta_i for all i. A splitting is symmetric if the list of its flows is a palindrome. For
+    Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -86,8 +86,8 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the tableau (A, b) for y. If the system y' = f(y) has no further variables z, the
-        partitioned method reduces to this Runge-Kutta method."""
+        """Return the Runge-Kutta method (A, b), which the partitioned method applies to y. For a system
+        y' = f(y) without variables z, both methods are the same."""
         return RungeKutta(self.A, self.b)
 
 
@@ -142,8 +142,8 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau to which the method reduces on an abelian group, where the exponents of a
-        product are added."""
+        """Return the Runge-Kutta tableau to which the method reduces on an abelian group. On such a group, a
+        product of exponentials is the exponential of the sum of the exponents."""
 
         def total(stage: Stage) -> Row:
             zero = (ring.zero,) * self.s
@@ -154,7 +154,7 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Return a simplified product of exponentials with the same value. Exponentials with zero exponent are
+    """Simplify a product of exponentials without changing its value. Exponentials with zero exponent are
     removed. Neighbouring exponentials with proportional exponents commute, so they are combined."""
     kept: list[Row] = []
     for row in rows:
@@ -172,11 +172,11 @@ def _proportional(x: Row, y: Row, ring: Ring) -> bool:
 
 @dataclass(frozen=True)
 class Composition:
-    """A composition of steps gamma_1 h, ..., gamma_s h of one basic method. The step gamma_1 h is applied
-    first.
+    """A composition of steps of one basic method with the step sizes gamma_1 h, ..., gamma_s h. The step of
+    size gamma_1 h is applied first.
 
-    The only value of ``base``, ``"symmetric-2"``, means that the basic method may be any symmetric method of
-    order 2. For the conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
+    ``base`` is always ``"symmetric-2"``: the basic method may be any symmetric method of order 2. For the
+    conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 
     base: str

@@ -1,12 +1,13 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. The conjugate of an exponential results from the exchange of the coefficients of stages j
-and s + 1 - j, for each j. The method is symmetric if two conditions hold:
+maps y1 back to y0. The exponent of each exponential has s coefficients, one for each stage. In the conjugate
+exponential, the coefficients of stages j and s + 1 - j are exchanged, for each j. The method is symmetric if
+two conditions hold:
 
 - The conjugate exponentials of the update are the exponentials of the update in reverse sequence.
-- For each i, consider the exponentials that lead from y0 to the value of stage i. Their conjugates with
-  opposite signs lead from y1 to the value of stage s + 1 - i.
+- For each i, consider the exponentials that lead from y0 to the value of stage i. Their
+  conjugates, with exponents multiplied by -1, lead from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -21,7 +22,10 @@ from orderconds.tableau.methods import CommutatorFree, Row
 
 def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
-    too wide to decide. A symmetry that needs a permutation of the stages is not recognised.
+    too wide to decide.
+
+    The stages are compared in the given order. A method that is symmetric only after a permutation of its
+    stages is not recognised.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -56,7 +60,7 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return a simplified product of exponentials with the same value. Neighbouring exponentials with
+    """Simplify a product of exponentials without changing its value. Neighbouring exponentials with
     proportional exponents are combined into one exponential. Exponentials with zero exponent are removed."""
     reduced: list[Row] = []
     for row in rows:

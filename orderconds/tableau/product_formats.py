@@ -31,8 +31,9 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "composition"``: a composition of basic steps. The file contains either gamma, or
-    alpha and beta. The numbers gamma are steps of a symmetric basic method of order 2. The numbers alpha are
-    steps of any basic method, and beta are steps of its adjoint."""
+    alpha and beta. The numbers gamma_i h are the step sizes of a symmetric basic method of order 2. The
+    numbers alpha_i h are the step sizes of any basic method, and beta_i h are the step sizes of its
+    adjoint."""
 
     base: Literal["symmetric-2", "adjoint-pair"]
     gamma: list[Coefficient] | None = None
@@ -105,7 +106,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
         for name in self.parts:
             if not name or self.parts.count(name) > 1:
                 problem = f"the part {name!r} twice" if name else "a part without name"
-                raise TableauError(problem, where=f"{where}: parts", expected="a name for each part")
+                raise TableauError(problem, where=f"{where}: parts", expected="different names of the parts")
         counted(len(self.step), f"{where}: step")
         known = ", ".join(self.parts)
         for k, (name, _) in enumerate(self.step):
@@ -139,8 +140,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     terms, such as nodes or brackets of nodes, and the values are the coefficients of the terms. Nodes are
     counted from 1.
 
-    ``elements`` defines named Lie elements. Later elements and the exponents may contain these names. ``map``
-    is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
+    ``elements`` defines named Lie elements. The exponents, and elements that are defined later, may
+    contain these names. ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
     """
 
     c: list[Coefficient]
@@ -199,7 +200,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"the product {key!r}",
                 where=where,
-                expected='brackets; products only with map = "cay"',
+                expected='a bracket, or map = "cay"',
             )
 
     def coefficients(self) -> Places:
@@ -210,8 +211,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent contains products and is not in the Lie
-        algebra of every quadratic group."""
+        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
+        algebra of some quadratic groups."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -230,10 +231,10 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"exponent {k + 1} contains products and is not in the Lie algebra of every "
-                        f"quadratic group",
+                        f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
+                        f"quadratic groups",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite "
-                        "coefficients",
+                        expected="equal coefficients of a product of 3, 5, ... factors and its reverse, and "
+                        "opposite coefficients of a product of 2, 4, ... factors and its reverse",
                     )
         return method, None

@@ -75,8 +75,8 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the Runge-Kutta tableau for the explicit Euler method Phi and the implicit Euler method
-        Phi*.
+        """Return the Runge-Kutta tableau of the composition in which Phi is the explicit Euler method and
+        Phi* is the implicit Euler method.
 
         Each pair Phi_{alpha_i h} Phi*_{beta_i h} evaluates the vector field at only one point, which is stage
         i. Hence b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
@@ -86,8 +86,9 @@ class AdjointComposition:
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the composition as a splitting into two parts 0 and 1. Phi is the flow of part 0, followed
-        by the flow of part 1. Phi* is the flow of part 1, followed by the flow of part 0.
+        """Return the composition as a splitting into two parts 0 and 1. In this splitting, the basic method
+        Phi is the flow of part 0, followed by the flow of part 1. Its adjoint Phi* is the flow of part 1,
+        followed by the flow of part 0.
 
         Neighbouring flows of the same part are combined. The splitting has the same order as the composition
         (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
@@ -108,12 +109,13 @@ the A_i."""
 
 @dataclass(frozen=True)
 class Magnus:
-    """A Magnus method for Y' = A(t) Y: a product of exponentials. The exponents are combinations of brackets
-    of A_i = h A(c_i h), where h is the step size and c_i are the nodes.
+    """A Magnus method for Y' = A(t) Y: a product of exponentials. Let A_i = h A(c_i h), where h is the step
+    size and c_i are the nodes. Each exponent is a linear combination of the A_i and their brackets. With the
+    Cayley transform, products of the A_i are also allowed.
 
     The exponential of the first entry of ``exponents`` acts first. ``elements`` contains pairs of a name and
-    a Lie element. The exponents and later elements may refer to a Lie element by its name. ``transform`` is
-    ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
+    a Lie element. The exponents, and elements that are defined later, may refer to a Lie element by its
+    name. ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -144,28 +146,29 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Return each exponent as a combination of words of nodes. Nodes are counted from 0. The first node
-        of a word acts first. For example, (i, j) denotes the product A_j A_i."""
+        """Expand each exponent into products of the A_i. Return one dictionary for each exponent. A key is a
+        tuple of nodes, counted from 0. For example, (i, j) denotes the product A_j A_i. The value is the
+        coefficient of the product."""
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
             named[name] = expand(combination, named, ring)
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return the least and the greatest number of factors in each exponent, as pairs. For this purpose,
-        an exponent is expanded into products of the A_i."""
+        """Return two numbers for each exponent. The exponent expands to a sum of products of the A_i. The
+        numbers are the least and the greatest number of factors in these products."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if :meth:`words` is fast enough: the expansions have at most :data:`MOST_WORDS`
-        products of the A_i."""
+        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. With more
+        products, :meth:`words` would be too slow."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent is a linear combination of the A_i, without brackets. Return False if
-        there is a bracket, or if the exponents have too many products to expand."""
+        """Return True if every exponent is a linear combination of the A_i. Brackets that cancel are ignored.
+        Return False in all other cases, also if the exponents cannot be expanded (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

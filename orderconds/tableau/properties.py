@@ -58,12 +58,14 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
-    """Return the equivalent scheme with two registers (2N), or the reason why there is no such scheme. Return
-    None for a method that is neither a Runge-Kutta nor a commutator-free method.
+    """Rewrite the method as a scheme with two registers (2N). The result contains the scheme, or the reason
+    why there is no such scheme. Return None for a method that is neither a Runge-Kutta nor a commutator-free
+    method.
 
-    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, an undecided
-    comparison is repeated with random numbers in place of the decimals. Equality for random numbers proves
-    equality for all decimals, except with negligible probability (:mod:`orderconds.tableau.random_member`).
+    For rounded decimals, it may be undecided whether the method equals the scheme. If the file has a table
+    ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals. Equality
+    for random numbers proves equality for all decimals, except with negligible probability
+    (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -108,7 +110,9 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
     """Return True if the method is symmetric for all values of its rounded decimals. The test uses random
-    numbers. The result is None if the test fails, or if the file has no table ``[proof]``."""
+    numbers in place of the decimals. The result is None if the method with random numbers is not symmetric,
+    because the exact coefficients may still be symmetric. It is also None if the test is impossible, for
+    example without a table ``[proof]``."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -145,8 +149,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Return True if a method is first-same-as-last: the first stage is the start value, and the last stage
-    is the update."""
+    """Return True if a method is first-same-as-last: the first stage equals the start value, and the last
+    stage equals the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

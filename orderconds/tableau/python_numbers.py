@@ -2,7 +2,7 @@
 numbers, and rows of such numbers are accepted.
 
 A float is converted to the text of a double (:mod:`orderconds.tableau.doubles`). A text must satisfy the
-grammar of tableau files. Error messages name the wrong entry, such as ``A[2][1]``, with indices that count
+grammar of tableau files. Error messages name the wrong entry, such as ``A[2][1]``. Its indices are counted
 from 1.
 """
 

@@ -1,13 +1,13 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. Let each coordinate of a random point be drawn from 2^128 numbers. Two different rational
-functions of degree at most D have the same value at this point with probability at most D / 2^128 (Schwartz
-1980; Zippel 1979).
+probability. Suppose that two rational functions of degree at most D are different. Consider a random point,
+each coordinate of which is drawn from 2^128 numbers. The two functions have the same value at this point with
+probability at most D / 2^128 (Schwartz 1980; Zippel 1979).
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
-changes all random numbers. Hence nobody can construct a file for which a test of an identity gives a wrong
-result. The arithmetic is exact, with rational numbers.
+changes all random numbers. Hence nobody can choose the random numbers first and then construct a file for
+which a test of an identity gives a wrong result. The arithmetic is exact, with rational numbers.
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Bits of a random number. A test of an identity of degree D gives a wrong result with probability at most D
-/ 2^128. D is far below 2^40, because the size of all intermediate values is limited."""
+"""The number of bits of a random number. A test of an identity between rational functions of degree D gives a
+wrong result with probability at most D / 2^128. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` on the
+size of intermediate values keeps D far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """Errors that are raised if a random method cannot be evaluated: numbers grow too large, or a divisor is
@@ -54,7 +55,7 @@ class RandomMember(Rationals):
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
-        """Return the larger of two numbers: the bits of the numerator, and the bits of the denominator."""
+        """Return the number of bits of the numerator or of the denominator, whichever is larger."""
         return max(int(x.p).bit_length(), int(x.q).bit_length())
 
     def method(self) -> Method:

@@ -24,7 +24,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
     """Return two truth values: whether methods with the stability function P/Q are A-stable, and whether they
-    are L-stable. Return None if a pole is on the imaginary axis, or too near the axis to decide.
+    are L-stable. Return None if it cannot be decided whether all poles are right of the imaginary
+    axis.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

@@ -45,7 +45,8 @@ class RealNumber:
         return f"${to_latex(self.text)}$"
 
     def _sympy_(self) -> sympy.Expr:
-        """Convert the number for ``sympy.sympify``. A rounded decimal becomes a SymPy Float."""
+        """Convert the number to a SymPy expression. ``sympy.sympify`` calls this method. A rounded decimal
+        becomes a SymPy Float."""
         import sympy
 
         if "~" in self.text:

@@ -13,8 +13,8 @@ def as_composition(tableau: Tableau) -> Tableau | None:
     tableau is no composition of implicit midpoint steps.
 
     The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
-    Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to the last digits of the decimals.
-    The coefficients of the composition agree with the decimals up to the last digits.
+    Lemma 3.5.4). For rounded decimals, differences within their uncertainty are allowed in the first two
+    conditions.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -63,7 +63,7 @@ class Tableau:
     """The table ``[proof]`` of the file, or None if there is no such table. The table contains equations that
     the rounded decimals solve approximately."""
     file: File | None = field(default=None, compare=False, repr=False)
-    """The file from which the tableau was read, or None if the coefficients were changed after reading."""
+    """The parsed tableau file, or None if the tableau is a copy with other coefficients."""
     doubles: bool = False
     """True if coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
@@ -85,10 +85,10 @@ class Tableau:
         exact. All other floats have the uncertainty of a double.
 
         - ``bhat``: s embedded weights, whose order is computed
-        - ``c``: the row sums of A
+        - ``c``: the abscissae, which must equal the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
-        Raises :class:`~orderconds.errors.TableauError`. The message contains the position of the wrong entry.
+        Raises :class:`~orderconds.errors.TableauError` for a wrong entry. The message contains its position.
 
         >>> Tableau.rk([[], [0.5]], [0, 1]).b
         (Fraction(0, 1), Fraction(1, 1))
@@ -166,7 +166,8 @@ defined under numbers (none)
     def A(self) -> tuple[tuple[Value, ...], ...]:
         """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
         contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise. For a
-        commutator-free method, A contains the sums of the coefficients over all exponentials of a stage."""
+        commutator-free method, row i of A is the sum of the coefficients of all exponentials that lead from
+        y0 to stage i."""
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
@@ -181,15 +182,15 @@ defined under numbers (none)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights, of the same types as the entries of :attr:`A`, or None without an embedded
+        """The embedded weights, of the same types as the entries of :attr:`A`. None if there is no embedded
         method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension of the file. None if the file has no extension, or if the coefficients
-        were changed after reading."""
+        """The continuous extension in the tableau file. None if the file has no extension, or if the tableau
+        is a copy with other coefficients."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -197,8 +198,8 @@ defined under numbers (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed order of the method in each family to which the method belongs, such as ``{"rk": 4,
-        ...}``.
+        """The computed orders, such as ``{"rk": 4, ...}``. The keys are the families to which the method
+        belongs.
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """
@@ -264,9 +265,9 @@ defined under numbers (none)
         """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
         converted to one of the formats.
 
-        The conversion of a composition to ``rk`` replaces a symmetric basic method by the implicit midpoint
-        rule. It replaces an adjoint pair by the explicit and the implicit Euler method. A composition of an
-        adjoint pair can also be converted to ``splitting``.
+        In the conversion of a composition to ``rk``, the implicit midpoint rule replaces a symmetric basic
+        method. The explicit and the implicit Euler method replace a basic method and its adjoint. A
+        composition of a basic method and its adjoint can also be converted to ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -298,7 +299,8 @@ defined under numbers (none)
 def load(path: str | Path) -> Tableau:
     """Read the tableau file at ``path``.
 
-    Raises :class:`TableauError`. The message contains the file, the key, the value and the expected value.
+    Raises :class:`TableauError` for a file that is not valid. The message contains the file, the key, the
+    value and the expected value.
 
     >>> from orderconds.tableau import find
     >>> load(find("kutta3")).name
@@ -348,8 +350,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys in ``data`` define. For an embedded method, the claimed order is the
-    computed order on vector spaces."""
+    """Return the tableau that the keys in ``data`` define. If there is an embedded method, its order on
+    vector spaces is computed and stored in ``data``."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

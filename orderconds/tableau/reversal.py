@@ -47,8 +47,9 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 for odd, and 1 for
-    even. Return None if the exponent is neither odd nor even, or if the parity is undecided.
+    """Return -1 if the first exponent is odd: the substitution A_i -> -A_{s+1-i} changes its sign. Return 1
+    if the exponent is even: the substitution does not change it. Return None if the exponent is neither odd
+    nor even, or if this is undecided.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

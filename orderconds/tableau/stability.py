@@ -2,11 +2,11 @@
 
 The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where 1 is the
 vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two conditions
-hold. First, every zero of Q has positive real part (Routh's test). Second, E(y) = |Q(iy)|^2 - |P(iy)|^2, a
-polynomial in y^2, is nowhere negative (Sturm's test). An A-stable method is L-stable if and only if deg P <
-deg Q (Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). The result is
-undecided if the coefficients are balls (intervals), or if the computation would take too long
-(:data:`LARGEST`, :data:`EFFORT`).
+hold. First, every zero of Q has positive real part (Routh's test). Second, |P(iy)| <= |Q(iy)| for all real y.
+For this condition, Sturm's test is applied to the difference |Q(iy)|^2 - |P(iy)|^2, which is a polynomial in
+y^2. An A-stable method is L-stable if and only if deg P < deg Q (Hairer and Wanner, *Solving Ordinary
+Differential Equations II*, Sections IV.3 and IV.5). The result is undecided if the coefficients are balls
+(intervals), or if the computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ coefficients."""
 
 
 LARGEST = 100
-"""Stability is decided only if no diagonal block of A has more rows than this number. The matrix A is treated
-as a block triangular matrix. For a rational block of this size, the computation takes a second."""
+"""The largest number of rows of a diagonal block of A. The matrix A is treated as a block triangular matrix.
+If a block is larger, stability is not decided. For a rational block of this size, the computation takes a
+second."""
 
 EFFORT = 10**11
 """The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the
@@ -64,7 +65,8 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        return {"a_stable": False, "l_stable": False}  # R is a polynomial and hence unbounded.
+        # The method is explicit. Its stability function is a polynomial and hence unbounded.
+        return {"a_stable": False, "l_stable": False}
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
     try:
@@ -98,9 +100,9 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
     """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
     The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. A negative
-    gamma_i gives a pole in the left half plane, except if gamma_j = -gamma_i for some j. The factors of
-    gamma_i and gamma_j then cancel.
+    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. If gamma_i is
+    negative, R has a pole in the left half plane, and the composition is not A-stable. There is one
+    exception: if gamma_j = -gamma_i for some j, the factors of gamma_i and gamma_j cancel.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -146,16 +148,16 @@ class _Limited:
 
 
 def _bits(x: Element) -> int:
-    """Return the number of bits of the largest rational coefficient of x, an element of Q or of a number
-    field. The bits of the numerator and of the denominator are added."""
+    """Return the largest number of bits of a rational coefficient of x. Here x is an element of Q or of a
+    number field. The bits of the numerator and of the denominator are added."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the work of ``count`` multiplications from the remaining work. The factors are as long as the
-    longest of ``numbers``. If ``quadratic`` is true, the work of one multiplication is quadratic in this
-    length, else linear."""
+    """Subtract the work of ``count`` multiplications from the remaining work. Each factor is assumed to have
+    as many bits as the longest of ``numbers``. If ``quadratic`` is true, the work of one multiplication grows
+    with the square of this number of bits. Otherwise, the work grows linearly."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -196,7 +198,7 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
     """Return det(I - zA) as a polynomial in z, by the method of Faddeev and LeVerrier. If A is block
-    triangular, multiply the determinants of the diagonal blocks."""
+    triangular, the result is the product of the determinants of the diagonal blocks."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):
@@ -227,8 +229,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part. Equivalently, the first column of Routh's scheme
-    of Q(-z) has no zero and no change of sign.
+    """Return True if every zero of Q has positive real part. For this test, Routh's scheme of Q(-z) is
+    computed. The result is True if the first column of the scheme has no zero and no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -268,8 +270,8 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 for real y as a polynomial in y^2, by the formula (Re p(iy))^2 + y^2 (Im p(iy) /
-    y)^2."""
+    """Return |p(iy)|^2 for real y as a polynomial in y^2. The formula is
+    |p(iy)|^2 = (Re p(iy))^2 + y^2 (Im p(iy) / y)^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]

@@ -66,8 +66,8 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Return True if a list is written as tables ``[[key]]``, for example the list of the stages of a
-    method."""
+    """Return True if the value is the list of the stages of a method. Each stage is written as a table with
+    the heading ``[[stage]]``."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

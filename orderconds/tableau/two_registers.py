@@ -30,7 +30,8 @@ from orderconds.tableau.methods import CommutatorFree, Row, RungeKutta, Stage
 
 @dataclass(frozen=True)
 class TwoRegisters:
-    """A low-storage (2N) scheme. ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
+    """A low-storage (2N) scheme. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y, where F is
+    the vector field and h is the step size. ``A`` and ``B`` contain the numbers A_i and B_i. A_1 is zero."""
 
     A: Row
     B: Row
@@ -41,8 +42,9 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the coefficients of F_1, ..., F_s in B_i K_i, for each stage i. F_j is the vector field at
-        stage j, and K_i is the register K at stage i.
+        """Return the increments B_i K_i, where K_i is the register K at stage i. The result has one row for
+        each stage i. The row contains the coefficients of F_1, ..., F_s in B_i K_i, where F_j is the vector
+        field at stage j.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -82,8 +84,8 @@ class Rewriting:
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     """Rewrite a method as a low-storage (2N) scheme. If the method is no 2N scheme, return the reason.
 
-    A commutator-free method must equal the scheme on every group. A tableau (A, b) must equal the scheme only
-    on vector spaces.
+    A commutator-free method is a 2N scheme if it equals the scheme on every group. A tableau (A, b) is a 2N
+    scheme if it equals the scheme on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -114,8 +116,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
     """Return the last exponent of ``second`` if ``second`` applies all exponentials of the update and then
     one more exponential. Otherwise, return None.
 
-    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. ``second`` then needs only
-    one additional register, to which stage i adds D_i F_i.
+    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. A program
+    can then compute ``second`` with only one additional register, to which stage i adds D_i F_i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -142,11 +144,11 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
             return rows[m][i - 1] / denominator
         if ring.is_zero(rows[m][i - 1]) is False and not above:
             above = (
-                f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
-                f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
+                f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
+                f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # The coefficient of F_i is zero in all increments from stage i on. If ``above`` is empty, these
-    # increments do not contain F_{i-1} either. Then A_i is arbitrary, and zero is chosen.
+    # All possible denominators of A_i are zero. If a numerator is not zero, there is no A_i. Otherwise, A_i
+    # is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
@@ -177,9 +179,9 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return the exponents that lead from each stage to the next, and from the last stage to the update.
-    Return an error text if more than one exponential is needed, or if the first stage is not the start
-    value."""
+    """Return one exponent for each stage. Its exponential leads from this stage to the next stage, or from
+    the last stage to the update. Return an error text if one exponential is not enough, or if the first stage
+    is not the start value."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)
@@ -190,7 +192,7 @@ def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
     for i, (path, later) in enumerate(zip(paths, [*paths[1:], update], strict=True)):
         end = f"stage {i + 2}" if i + 1 < method.s else "the update"
         if len(later) not in (len(path), len(path) + 1) or not _same(path, later[: len(path)], ring):
-            return f"{end} is not one exponential applied to stage {i + 1}"
+            return f"{end} does not result from stage {i + 1} by one exponential"
         increments.append(later[-1] if len(later) > len(path) else (ring.zero,) * method.s)
     return increments
 

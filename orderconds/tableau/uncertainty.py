@@ -13,15 +13,15 @@ from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
 """The ball (interval) of a double has at most the width ``WIDER * r``. Here r is the radius that
-:func:`~orderconds.tableau.doubles.radius` returns. The factor exceeds 2, because the end points are rounded.
+:func:`~orderconds.tableau.doubles.radius` returns. The factor exceeds 2, because rounding widens the ball.
 """
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
-    """Return the largest radius of the coefficients that are less accurate than floating-point numbers of
-    ``bits`` bits.
+    """Return the largest radius of the coefficients that are not accurate enough for floating-point numbers
+    of ``bits`` bits.
 
-    A coefficient counts as less accurate if the radius of its ball (interval) exceeds the error of one
+    A coefficient is not accurate enough if the radius of its ball (interval) exceeds the error of one
     rounding to ``bits`` bits. The result is a decimal with two digits, or empty if all coefficients are
     accurate enough. A double is always accurate enough, because generated code contains the double without
     further rounding.

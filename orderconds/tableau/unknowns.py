@@ -1,15 +1,15 @@
 """Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
-A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` defines order
-conditions whose unknowns are these decimals. The exact coefficients solve these conditions and are near the
-decimals.
+A decimal with ``~`` approximates a number without a known closed form. These numbers are the unknowns of the
+order conditions that the table ``[proof]`` defines. The exact coefficients solve the conditions and are near
+the decimals.
 
 ::
 
     [proof]
-    conditions = "cg"          # the family whose independent conditions are the equations
+    conditions = "cg"          # the equations are the independent conditions of this family
     order = 4                  # all conditions up to this order
-    pins = ["a31", "a42"]      # decimals that are exact numbers, not unknowns
+    pins = ["a31", "a42"]      # these decimals count as exact numbers, not as unknowns
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
@@ -44,8 +44,8 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file. ``constant`` is the decimal without its sign. A minus sign is a separate
-    operation."""
+    """A rounded decimal of a file. ``constant`` is the decimal without its sign, because the parser converts
+    a minus sign to a subtraction."""
 
     name: str
     constant: Constant
@@ -56,8 +56,8 @@ class Proof:
     """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
 
     The equations are the order conditions of one family up to order ``order``. ``conditions`` is the name of
-    this family. ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact
-    numbers. ``printed`` contains decimals as printed in the source of the method.
+    this family. The decimals in ``unknowns`` are the unknowns of the equations. The decimals in ``pinned``
+    count as exact numbers. ``printed`` contains decimals as printed in the source of the method.
     """
 
     conditions: str
@@ -74,8 +74,8 @@ class Proof:
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return one number for the given ``values`` of the unknowns. ``name`` is the name of the number or
-        its position in the file."""
+        """Return the value of one number of the file for the given ``values`` of the unknowns. ``name`` is
+        the name of the number or its position in the file."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -100,12 +100,14 @@ class SymbolicCoefficients(Struct, frozen=True):
         return self.build(values, ring)
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
-        """Return one number of the file, given its name or its position in the file."""
+        """Return the value of one number if the decimals of the file have the values ``known``. ``name`` is
+        the name of the number or its position in the file."""
         expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return the different rounded decimals in the order of the file, named numbers first."""
+        """Return the different rounded decimals of the file: first the decimals in named numbers, then the
+        decimals in the coefficients."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):
@@ -137,6 +139,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element. Elements of such rings are not
-        # limited in size.
+        # Some rings (jets, residues) do not define the size of an element. In such rings, the size counts as
+        # zero, so the size limit never applies.
         return 0 if size is None else int(size(x))

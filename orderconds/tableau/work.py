@@ -5,9 +5,10 @@ uses are not counted. The last stage of an explicit first-same-as-last method is
 also the first stage of the next step. For an implicit method, the counts are for one iteration, which
 evaluates each stage once.
 
-Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
-simplification. For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley
-transform counts as an exponential.
+Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
+the update depends, except at stages that equal the start value. All nested brackets of dexpinv are counted.
+For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley transform
+counts as an exponential.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ class Work:
     brackets: int | None = None
 
     def as_json(self) -> dict[str, int | None]:
-        """Return the three numbers as a dictionary for JSON."""
+        """Return the numbers of evaluations, exponentials and brackets as a dictionary for JSON."""
         return asdict(self)
 
 
@@ -117,8 +118,8 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
-    # In an explicit first-same-as-last method, the last stage is the first stage of the next step. The last
-    # stage has weight zero, so it is not counted.
+    # The last stage of an explicit first-same-as-last method is also the first stage of the next step. Its
+    # weight is zero. The update does not depend on this stage, so the stage is not counted.
     return len(_needed(method, ring))
 
 
@@ -141,8 +142,8 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # The product of a stage may act on an earlier stage. The update then also depends on the earlier
-        # stage.
+        # The update depends on ``stage``. If the exponentials of ``stage`` act on an earlier stage, the
+        # update also depends on the earlier stage.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -183,9 +184,10 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in dexpinv_u, a sum of powers of ad_u up to the exponent
-    ``cutoff``. The number is the highest exponent k <= ``cutoff`` with a non-zero Bernoulli number B_k. If
-    ``cutoff`` is None, dexpinv is not truncated, no brackets are counted, and the result is 0."""
+    """Return the number of nested brackets in the series dexpinv_u = sum_k (B_k / k!) ad_u^k, where B_k are
+    the Bernoulli numbers. The series is truncated after the exponent ``cutoff``. The result is the highest
+    exponent k <= ``cutoff`` for which B_k is not zero. If ``cutoff`` is None, the series is not truncated, no
+    brackets are counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

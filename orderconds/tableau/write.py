@@ -69,9 +69,9 @@ def as_data(tableau: Tableau) -> Data:
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the keys and values of a tableau file, with the coefficients written in full.
 
-    The named numbers of the file are replaced by their values. The result contains names only for real roots
-    that a polynomial (``minpoly``) defines. If ``name_radicals`` is true, it also contains names for square
-    roots inside other roots.
+    The named numbers of the file are replaced by their values. Real roots that a polynomial (``minpoly``)
+    defines keep their names. If the coefficients contain square roots inside other roots, and if
+    ``name_radicals`` is true, the square roots receive the names r1, r2, ...
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'

@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the names of the shapes of all vertices and of the directions of all edges in the drawing of a
-    tree."""
+    """Return the names of all signs in the drawing of a tree. A sign is the shape of a vertex, such as
+    ``white``, or the direction of an edge, such as ``outward``."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -73,12 +73,12 @@ def _signs(diagram: Diagram) -> list[str]:
 
 
 MEANINGS = {
-    "white": "black vertices are derivatives of the first part of the system, and white vertices are "
-    "derivatives of the second part",
+    "white": "a black vertex denotes a derivative of the first function of the system (f or T), and a white "
+    "vertex denotes a derivative of the second function (g or V)",
     "outward": "an arrow leads from a derivative with respect to the position to a derivative with respect "
     "to the momentum",
-    "transport": "a diamond is a coadjoint action on the momentum",
-    "bracket": "two branches at a point are a commutator",
+    "transport": "a diamond denotes a coadjoint action on the momentum",
+    "bracket": "a point with two branches denotes the commutator of the branches",
 }
 """Explanations of shapes and directions in the drawings of trees."""
 

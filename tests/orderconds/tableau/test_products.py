@@ -212,7 +212,7 @@ MALFORMED = {
     "a product in an exponential": (MAGNUS + 'exponents = [{ "1*2" = 1 }]\n', "the product '1*2'", "cay"),
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
-        "is not in the Lie algebra of every quadratic group",
+        "lies outside the Lie algebra of some quadratic groups",
         "opposite",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),

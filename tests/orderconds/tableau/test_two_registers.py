@@ -95,13 +95,13 @@ def test_products_from_the_start_value_are_recognised() -> None:
     [
         (
             'family = "rk"\nA = [[], ["1/2"], ["1/4", "0"]]\nb = ["0", "0", "1"]\n',
-            "the denominator of A_2 is zero: in the increment of stage 2, the coefficient of k_2 is 0, but "
-            "the coefficient of k_1 is -1/4",
+            "A_2 has a zero denominator: in the increment of stage 2, k_1 has the coefficient -1/4 and "
+            "k_2 has the coefficient 0",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"]]\nb = ["1/3", "0"]\n',
-            "the denominator of A_2 is zero: in the increment of stage 2, the coefficient of k_2 is 0, but "
-            "the coefficient of k_1 is -1/6",
+            "A_2 has a zero denominator: in the increment of stage 2, k_1 has the coefficient -1/6 and "
+            "k_2 has the coefficient 0",
         ),
         ('family = "rk"\nA = [["1/2"]]\nb = ["1"]\n', "the first stage is not the start value"),
         (
@@ -110,11 +110,11 @@ def test_products_from_the_start_value_are_recognised() -> None:
         ),
         (
             'family = "cf"\n[[stage]]\n[[stage]]\nexp = [["1/2"], ["1/4"]]\n[update]\nexp = [["0", "1"]]\n',
-            "stage 2 is not one exponential applied to stage 1",
+            "stage 2 does not result from stage 1 by one exponential",
         ),
         (
             'family = "cf"\n[[stage]]\n[[stage]]\nexp = [["1/2"]]\n[update]\nexp = [["0", "1"]]\n',
-            "the update is not one exponential applied to stage 2",
+            "the update does not result from stage 2 by one exponential",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"], ["0", "1/2"]]\nb = ["0", "0", "1"]\n',
