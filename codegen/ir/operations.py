@@ -22,8 +22,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each name is a tuple with one kind. The kinds of two arguments can then be written as a sum such as ``G +
-# A``.
+# Each of these variables is a tuple with one kind. The kinds of two arguments are then a sum of tuples,
+# such as ``G + A``.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -40,12 +40,14 @@ class Problem(Protocol):
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of the function ``name``, which belongs to the group, its action or the scene.
 
-        ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for other functions.
+        For the truncated dexp^{-1}, ``order`` is the number of brackets. For a Taylor polynomial, it is the
+        degree. For all other functions, it is None.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
-        """Return the state after the time ``tau`` in the exact flow of one term of the vector field. ``part``
-        is the name of this term.
+        """Return the state after the exact flow of one term of the vector field.
+
+        ``part`` is the name of the term, and ``tau`` is the duration of the flow.
         """
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
@@ -64,8 +66,8 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. An operation with
-    parameters may override :meth:`signature` instead.
+    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. If the kinds
+    depend on parameters of the operation, its class overrides :meth:`signature`.
     """
     # Compiler passes simplify linear operations, for example by ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
@@ -125,7 +127,7 @@ class Zero(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
-        # A zero of a group or of a manifold is not defined, so ``kind`` must be the algebra or its dual.
+        # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -150,11 +152,11 @@ class Linear(Operation):
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there is one argument for each coefficient, and the arguments and the result are of
-        the same kind, the algebra or its dual.
+        """Return True if there is one argument for each coefficient, and all arguments and the result have
+        the same kind. This kind must be the algebra or its dual.
         """
-        # An empty combination is refused, because nothing would define its kind. :class:`Zero` is used
-        # instead.
+        # A combination without arguments is refused, because the kind of its result would be unknown.
+        # :class:`Zero` is used instead.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -169,13 +171,13 @@ class Linear(Operation):
         """Return the linear combination. Vectors with equal coefficients are added before they are multiplied
         by the coefficient.
         """
-        # Emitted code uses the same order of operations, with one product for each distinct coefficient.
+        # Emitted code computes the sums and products in the same order.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # A dictionary keeps the order of insertion, so the terms are always added in the same order.
+            # The dictionary ``groups`` keeps its order of insertion, so the order of the additions is fixed.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -189,7 +191,7 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """The time of a stage: t + ``coefficient`` for the argument t."""
+    """The time t + c h of a stage. The argument is t, and ``coefficient`` is the product c h."""
 
     coefficient: Coefficient
     name = "advance"
@@ -202,7 +204,6 @@ class Advance(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the time of the stage."""
-        # For a stage at t + c h, ``coefficient`` is the product c h.
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -216,7 +217,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # The argument ``order`` of ``apply`` is None, because only truncated series have an order.
+        # The argument ``order`` of ``apply`` is None, because the function does not truncate a series.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -254,7 +255,8 @@ class ElementAt(OfGroup):
 class InverseDifferential(OfGroup):
     """The element dtau^{-1}_x y of the Lie algebra, where tau is the coordinate map of the scene.
 
-    A curve x(t) with x' = dtau^{-1}_x y gives a curve tau(x(t)) in the group with tau(x)' = y.tau(x).
+    If a curve x(t) satisfies x' = dtau^{-1}_x y, the curve g(t) = tau(x(t)) in the group satisfies g' = y.g.
+    For a group of matrices, y.g is the matrix product.
     """
 
     linear_in_last = True
@@ -290,7 +292,8 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-# For a matrix A, exp(A) y needs only products of A and vectors, so it is often faster than exp(A).
+# For a matrix A, exp(A) y can be computed from products of A and vectors. This computation is often faster
+# than that of the matrix exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -303,7 +306,9 @@ class ActExp(OfGroup):
 
 @dataclass(frozen=True)
 class Adjoint(OfGroup):
-    """Ad_g x, or Ad*_g mu if ``dual`` is true. If ``inverse`` is true, g^-1 replaces g."""
+    """The vector Ad_g x for the arguments g and x. If ``dual`` is true, the vector is Ad*_g mu for the
+    arguments g and mu. If ``inverse`` is true, g^-1 replaces g.
+    """
 
     dual: bool = False
     inverse: bool = False
@@ -336,7 +341,9 @@ class Adjoint(OfGroup):
 
 @dataclass(frozen=True)
 class Bracket(OfGroup):
-    """The bracket [x, y], or ad*_x mu if ``dual`` is true."""
+    """The bracket [x, y] for the arguments x and y. If ``dual`` is true, the result is ad*_x mu for the
+    arguments x and mu.
+    """
 
     dual: bool = False
     linear_in_last = True
@@ -378,9 +385,9 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
-        # A compiler pass multiplies such products if they contain the same ad_x. One operation then replaces
-        # several operations.
+        """The functions of ad_x that the operation applies: only the truncated dexp^{-1}."""
+        # If functions of the same ad_x are applied one after another, a compiler pass joins their words. One
+        # operation then replaces several operations.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -393,7 +400,7 @@ class InverseDexp(Operation):
         return A + own, own
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the value of the truncated series. A method of the group computes it."""
+        """Return the value of the truncated series."""
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -417,7 +424,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the transposed derivative of dexpinv_x y, applied to mu. The group computes it."""
+        """Return the transposed derivative of dexpinv_x y, applied to mu."""
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -433,7 +440,7 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a product of functions of ad_x. The only factor is dexp."""
+        """The functions of ad*_x that the operation applies: only dexp."""
         return (Factor("dexp", UNIT),)
 
 

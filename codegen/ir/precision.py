@@ -103,12 +103,12 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The exact value is rounded only once. If it were first rounded to a double, the second rounding could
-    # start from a false tie.
+    # The exact value is rounded only once. If it were first rounded to a double, this double could be a tie
+    # although the exact value is not. The second rounding would then be wrong.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # The exponent from the bit lengths may be too small by one. This line then adds one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
+    # The last bit of all subnormal numbers has the same exponent, so these numbers have fewer bits.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)

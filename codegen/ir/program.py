@@ -49,7 +49,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # For such a multiple c x, compiler passes apply the rule L(c x) = c L(x) for linear maps L.
+    # If x = c y with a coefficient c and L is a linear map, compiler passes replace L(x) by c L(y).
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a linear combination with one term: a coefficient times a value."""
@@ -75,7 +75,7 @@ class Solve:
     - ``starts`` are the variables with the first values of the unknowns.
     - ``images`` are the variables with the values g(u), one for each unknown.
     - ``residuals`` is empty, or contains one residual for each unknown. A residual is zero at the solution,
-      and is about as large as the error of its unknown.
+      and is about as large as the error of the corresponding unknown.
 
     Statements after the block may use the variables of the body. After the block, these variables have the
     values that belong to the solution.
@@ -86,7 +86,7 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # The stopping rule of the iteration compares the size of a residual with the size of its unknown.
+    # The stopping rule compares the size of each residual with the size of the corresponding unknown.
     residuals: tuple[Var, ...] = ()
 
 
@@ -128,8 +128,10 @@ class Program:
     """One step of an integrator: its inputs, its statements, and its outputs, which form the new state.
 
     An output such as q has the same name as the input that it replaces. If ``substeps`` is not empty, the
-    statements are executed once for each substep, in the order of ``substeps``. If ``frame`` is :data:`BODY`,
-    the statements compute q' and m' from q and the body momentum m = Ad*_q mu. The new momentum is then
+    statements are executed once for each substep, in the order of ``substeps``.
+
+    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. They
+    compute the new position q' and the new body momentum m'. The new momentum is then computed as
     mu' = mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
     """
 
@@ -149,7 +151,9 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return a table from the name of each operation to the number of its assignments, sorted by name."""
+        """Return the number of assignments of each operation. The keys are the names of the operations, in
+        alphabetical order.
+        """
         total: dict[str, int] = {}
         for assign in self.assigns():
             # The number of iterations of a block is unknown, so each assignment in a block is counted once.
@@ -231,8 +235,8 @@ class Builder:
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. For the dual, ad*_x replaces
-        ad_x.
+        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. If v is in the dual, ad*_x
+        replaces ad_x.
         """
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
@@ -241,7 +245,9 @@ class Builder:
         return self.add(DualDexp(), target, x, mu)
 
     def field_at(self, target: str, y: Var, *time: Var) -> Var:
-        """Append target = f(y) for the vector field f. If ``time`` is given, f(y, time) replaces f(y)."""
+        """Append target = f(y) for the vector field f. If a variable t is given as ``time``, append
+        target = f(y, t).
+        """
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
@@ -255,7 +261,7 @@ class Builder:
         return var
 
     def advance(self, target: str, t: Var, coefficient: Coefficient) -> Var:
-        """Append target = t + coefficient."""
+        """Append target = t + c h, the time of a stage. ``coefficient`` is the product c h."""
         return self.add(Advance(coefficient), target, t)
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
@@ -269,9 +275,10 @@ class Builder:
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
-        """Append the exact flow of a term of the Hamiltonian from (q, mu) for the time ``duration``.
+        """Append the exact flow of a term of the Hamiltonian. The flow starts at (q, mu).
 
-        ``part`` is the name of the term. The result is the pair of variables with the state after the flow.
+        ``part`` is the name of the term, and ``duration`` is the duration of the flow. The result is the pair
+        of variables with the state after the flow.
         """
         # The number of the statement makes the variable names of successive flows different.
         number = 1 + len(self.body)

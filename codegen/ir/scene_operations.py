@@ -27,8 +27,8 @@ class OfScene(OfGroup):
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return ``arguments``, the kinds of the arguments. If ``timed`` is true, the kind of the time is
-        appended.
+        """Return the kinds of all arguments. They are ``arguments``, followed by the kind of the time if
+        ``timed`` is true.
         """
         return arguments + R if self.timed else arguments
 
@@ -50,7 +50,8 @@ class Field(OfScene):
 class HamiltonianDerivatives(OfScene):
     """The derivatives xi = D_2 H and n = -(D_1 H).q^-1 of the Hamiltonian H(q, mu), or H(q, mu, t).
 
-    D_1 and D_2 denote the derivatives with respect to q and mu.
+    D_1 and D_2 denote the derivatives with respect to q and mu. In components, n_a is -d/deps H(exp(eps e_a)
+    q, mu) at eps = 0, for the basis elements e_a of the Lie algebra.
     """
 
     name = "hamilton"
@@ -130,8 +131,8 @@ class Secant(OfGroup):
     """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
 
     The covector g approximates the gradient. The vector x is the displacement between two points with the
-    energies H0 and H1. The result is a covector whose pairing with x is H1 - H0. Of all covectors with this
-    property, it is the nearest to g. For x = 0 the result is g.
+    energies H0 and H1. Among all covectors whose pairing with x is H1 - H0, the result is the nearest to g.
+    For x = 0 the result is g.
     """
 
     # The formula contains a quotient that is 0/0 at x = 0. One operation for the whole formula can treat this
@@ -143,9 +144,10 @@ class Secant(OfGroup):
 
 @dataclass(frozen=True)
 class Bivector(OfGroup):
-    """The bivector omega at the point y, applied to a covector alpha: omega_y(alpha, .).
+    """The element omega_y(alpha, .) of the Lie algebra, for a point y and a covector alpha.
 
-    If alpha is the differential of the energy H at y, the result is the vector field f(y).
+    The bivector omega_y at the point y is a skew bilinear form on the dual of the Lie algebra. If alpha is
+    the differential of the energy H at y, the result is the vector field f(y).
     """
 
     # The operation is linear in alpha. If alpha is c beta with a number c, compiler passes may apply the
@@ -179,7 +181,7 @@ class TaylorStep(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the value of the Taylor polynomial at the end of the step."""
-        # The third argument of ``apply`` is the order of a truncated series. Here it is the degree.
+        # For a Taylor polynomial, the argument ``order`` of ``apply`` is the degree.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -209,9 +211,9 @@ class Sandwich(OfGroup):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """An approximate projection of a point onto the orbit of another point under the group action.
+    """An approximate projection of a point y onto the orbit of a point z under the group action.
 
-    The first argument is the point to project. The second argument is a point of the orbit.
+    The arguments are y and z.
     """
 
     name = "to_orbit"
@@ -224,14 +226,14 @@ class FlowOf(Operation):
     """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
     ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
-    the time. During the flow, the time in the term is constant.
+    a time t. During the flow, the time in the term is fixed at t.
     """
 
     part: str
     duration: Coefficient
     timed: bool = False
-    # The cost of a flow is about the cost of an exponential. Both compute an angle, its sine and cosine, and
-    # a product.
+    # A flow and an exponential have about the same cost. Each of them computes an angle, its sine and cosine,
+    # and a product.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"

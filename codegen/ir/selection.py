@@ -5,7 +5,8 @@
 - ``fabs`` is the absolute value.
 - A :class:`codegen.ir.table.PiecewisePolynomial` selects one of its polynomials.
 
-Power series in h have no value at a point where the selected formula changes. :class:`Kink` is then raised.
+The selected formula changes at certain arguments, for example at x = 0 in ``choose``. :class:`Kink` is raised
+if the argument is a power series in h that has such a value at h = 0.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ SELECTING = (CHOOSE, ABSOLUTE)
 
 
 class Kink(ArithmeticError):
-    """Raised if a selecting function is called with a power series that begins at a point where the selected
-    formula changes.
+    """Raised if the argument of a selecting function is a power series in h, and the selected formula changes
+    at the constant term of this series.
     """
 
 

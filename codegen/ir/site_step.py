@@ -38,8 +38,9 @@ BYTES = 8
 
 @dataclass(frozen=True)
 class Row:
-    """The row with the index ``number`` in the array called ``array``. It contains one number for each
-    site.
+    """A row of an array, with one number for each site.
+
+    ``array`` is the name of the array, and ``number`` is the index of the row.
     """
 
     array: str
@@ -63,18 +64,19 @@ class Load:
 class Sweep:
     """One loop over all sites. The formulas are in ``kernel``, and its output k is stored in ``stores[k]``.
 
-    - ``about`` describes the sweep in words, by the operations that it computes.
+    - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice. It has one output for each load in
       :attr:`read_outside`. If the neighbour of a load does not exist, the formulas use the value of this
       output in place of the number from the neighbour.
-    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. The second site of a
-      pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the second site.
+    - ``axis`` is used in a sweep over pairs of neighbouring sites. It is the direction of the pairs. The
+      second site of a pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the
+      second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
-    - ``measured`` are two rows for the stopping test: the largest change and the largest absolute value of an
-      unknown at each site.
-    - ``sums`` contains a pair (name, row) for each sum over all sites. The terms of the sum are in this row.
+    - ``measured`` is empty, or contains two rows for the stopping test. At each site, the first row contains
+      the largest change of the unknowns. The second row contains their largest absolute value.
+    - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.
       Later sweeps read the sums.
     """
 
@@ -91,7 +93,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
-        # ``OWN`` denotes the site itself, which is not a neighbour.
+        # A load from the site itself has the value ``OWN``, which is not the index of a neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -102,7 +104,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
-        # The rows of the array ``EXISTS`` are not stored in memory.
+        # The numbers of the array ``EXISTS`` are computed, so they are not read from memory.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
@@ -113,17 +115,18 @@ class Sweep:
 
 @dataclass(frozen=True)
 class SiteNewton:
-    """The matrix of Newton's method for implicit equations on a chain of sites, to first order in h.
+    """The matrix of Newton's method for implicit equations u = g(u) on a chain of sites.
 
-    The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
-    columns. They are the derivatives with respect to the unknowns of the left neighbour, of the site, and of
-    the right neighbour. ``loads`` are the numbers that the kernel reads. The symbol with the name
-    ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
+    The matrix contains the derivatives of u - g(u), expanded to first order in h. It is block-tridiagonal.
+    For each site, ``kernel`` computes three blocks of ``size`` rows and columns: the derivatives with respect
+    to the unknowns of the left neighbour, of the site, and of the right neighbour. ``loads`` are the numbers
+    that the kernel reads. The symbol with the name ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
 
-    A row of the workspace contains one number for each site. The entries of the three blocks are stored from
-    the row ``matrix`` on, and the ``size`` residuals from the row ``residual`` on. If the chain is periodic,
-    its last site is coupled to the first one. Those ``size`` columns of the matrix that multiply the unknowns
-    of the last site are then called the border. The border is stored from the row ``border`` on.
+    ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace. Each row contains one number
+    for each site. Row ``matrix`` is the first row with entries of the three blocks, and row ``residual`` is
+    the first of ``size`` rows with residuals. If the chain is periodic, its last site is coupled to the first
+    one. Those ``size`` columns of the matrix that multiply the unknowns of the last site are then called the
+    border. Row ``border`` is the first row of the border.
     """
 
     kernel: Kernel
@@ -140,14 +143,14 @@ class SiteNewton:
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # The kernel writes three blocks of n^2 numbers. The factorisation reads the blocks, and writes its
-        # factors in their place.
+        # For each site, ``kernel`` writes three matrix blocks with n^2 numbers each. The factorisation reads
+        # the blocks and overwrites them with the factors.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
         # In a periodic chain the last site is a neighbour of the first site. The matrix then has entries
         # outside its three block diagonals.
         if periodic:
-            # The equations are also solved with n other right-hand sides. They are those columns of the
-            # matrix that multiply the unknowns of the last site.
+            # The linear equations are also solved with n other right-hand sides: the n columns of the matrix
+            # that multiply the unknowns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -181,9 +184,10 @@ class SiteBlock:
 
     In each iteration, the sweeps with the indices ``first`` to ``last`` compute the values g(u), which
     replace the unknowns. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's
-    method corrects the unknowns. The iteration ends when the unknowns of all sites have converged. Sweeps
-    before ``first`` store the first values of the unknowns. ``label`` is the name of the equations in
-    messages.
+    method corrects the unknowns. The iteration ends when the unknowns of all sites have converged.
+
+    Before the first iteration, earlier sweeps store the initial guess for the unknowns. ``label`` is the name
+    of the equations in messages.
     """
 
     label: str
@@ -218,12 +222,12 @@ class SiteStep:
     - ``dimension`` is the dimension of the lattice, and ``offsets`` are the offsets of the neighbours of a
       site.
     - ``periodic`` is true if the lattice has periodic boundary conditions.
-    - ``sweeps`` are the loops over all sites, in the order of execution. They use ``rows`` rows of the
-      workspace.
+    - ``sweeps`` are the loops over all sites. If ``flows`` is empty, they are in the order of execution. They
+      use ``rows`` rows of the workspace.
     - ``size`` is the number of rows of the state.
-    - ``flows`` are the flows of a splitting method. If there are any, the step executes the sweep of each
-      flow, in the order of the flows. The first sweep reads the old state, and all other sweeps change the
-      new state in place.
+    - ``flows`` are the exact flows of a splitting method, in the order of execution. For other methods,
+      ``flows`` is empty. Each flow is computed by the sweep with the index :attr:`SiteFlow.sweep`. The first
+      flow reads the old state, and all other flows change the new state in place.
     - ``blocks`` are the implicit equations of the step, in the order in which they are solved.
     """
 
@@ -238,8 +242,8 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace: ``rows`` for stored values, and ``size`` for a second
-        state.
+        """The number of rows of the workspace. It stores a state in ``size`` rows, and the values between the
+        sweeps in ``rows`` rows.
         """
         return self.rows + self.size
 
@@ -280,8 +284,8 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The memory traffic of a step without its iterations: (numbers read, numbers written) for each
-        site.
+        """The memory traffic of a step, excluding all iterations. The value is the pair (numbers read,
+        numbers written) for each site.
         """
         # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
@@ -299,7 +303,7 @@ class SiteStep:
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
         """Return how many numbers a step reads from memory or writes to memory for each site.
 
-        ``sweeps`` contains the number of iterations for the equations of each block.
+        For each block of implicit equations, ``sweeps`` contains the number of iterations.
         """
         # ``n`` is the number of iterations for the block ``b``.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
@@ -329,24 +333,25 @@ class SiteStep:
                     f"  Newton's method: the matrix has three blocks of {n} x {n} numbers for each site"
                 )
         if self.flows:
-            lines.append(f"a step: {len(self.flows)} passes through these loops")
+            lines.append(f"a step executes {len(self.flows)} loops, counted with repetitions")
         lines.append(
             f"workspace: {self.workspace} numbers ({BYTES * self.workspace} bytes) for each site, "
             "plus padding"
         )
         moved = f"memory traffic: {_moved(self.moved_once)} for each site and step"
         for block in self.blocks:
-            moved += f", and {_moved(self.moved_in_a_sweep(block))} in each sweep of {block.label}"
+            moved += f", plus {_moved(self.moved_in_a_sweep(block))} in each iteration for {block.label}"
         return [*lines, moved]
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the memory traffic of the sweeps: the pair (numbers read, numbers written) for each site.
 
-    In each sweep, repeated reads of a number are not counted, because they find the number in the cache.
+    If a sweep reads a number several times, the number is counted once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, another loop over all sites reads the rows ``measured`` and the terms of the sums.
+    # After a sweep, further loops over all sites evaluate the stopping test and the sums. They read the rows
+    # ``measured`` and the rows with the terms of the sums.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

@@ -328,5 +328,5 @@ def test_explain_shows_the_sweeps_that_are_repeated():
     assert answer.exit_code == 0
     assert "loop 1: k0 = field(y); v1 = k0" in answer.output
     assert "loops 2 to 3 are repeated until the unknowns v1 converge at all sites" in answer.output
-    assert "in each sweep of the equations of v1" in answer.output
+    assert "in each iteration for the equations of v1" in answer.output
     assert "the equations of v1: fixed point, 3 unknowns" in answer.output
