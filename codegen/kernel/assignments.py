@@ -58,7 +58,7 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the body of the kernel, and set ``outputs``."""
-        # A value that two loops share must have a single name, so the uses in all loops are counted together.
+        # The uses in all loops are counted, so that a value that two loops read gets a name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -69,8 +69,8 @@ class Assignments:
             # If ``remembers`` is true, one statement before all loops sets the first values of all unknowns.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # A Newton matrix to leading order in h is computed before the sweeps, so it must not use values
-            # of the body.
+            # Newton's matrix to first order in h is computed before the sweeps. It is placed before the
+            # images, because it must not use names that the body of the loop defines.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # ``block.kept`` lists values of the body for later statements. Values that no later expression
@@ -80,10 +80,10 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # An exact Newton matrix uses values of the body, so it is computed after the body.
+            # Any other Newton matrix may use values of the body, so it is computed after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's method corrects the unknowns after the body of the last sweep. So the values of the
-            # body belong to the unknowns before this correction. The values are computed again for later
+            # Newton's method corrects the unknowns at the end of the last sweep. So the values of the body
+            # were computed from the unknowns before this correction. They are computed again for later
             # statements, if this takes little work or if the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
@@ -105,7 +105,7 @@ class Assignments:
     def _prepare(self) -> None:
         """Count the uses of each node (subexpression), and compute the level of the node.
 
-        The level is the index of the last loop that computes an unknown of the node.
+        The level is the index of the last loop whose unknowns occur in the node, or -1 if no unknowns occur.
         """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
@@ -132,14 +132,15 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # Later steps of a run skip this statement, so no other statement may use a name that it defines.
+        # Later steps of a run may skip the start statement, so no other statement may use names that it
+        # defines.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # A later statement also uses this value, so the value is assigned before the start statement.
+            # If other statements also use a value, the value is assigned before the start statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -151,8 +152,8 @@ class Assignments:
 
     def _newton(self, block: Block) -> Newton:
         """Return Newton's matrix, with the additional assignments that it needs."""
-        # The matrix is computed only in some sweeps, so later statements must not use the names that its
-        # assignments define.
+        # The matrix is computed only in some sweeps, so later statements must not use names that are
+        # assigned for the matrix.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -186,7 +187,11 @@ class Assignments:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return ``root`` with symbols in place of named subexpressions, and append new assignments."""
+        """Return ``root`` with names in place of its shared and long subexpressions.
+
+        New assignments that depend on the unknowns of loop ``loop`` are appended to ``inner``, all others to
+        ``outer``.
+        """
         # The traversal is not recursive, because expressions may be nested deeply.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:

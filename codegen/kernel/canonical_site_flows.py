@@ -56,8 +56,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # ``run`` lists the successive flows of one sweep. Lists with the same flows and proportional
-        # durations share a sweep.
+        # ``run`` lists the successive flows of one sweep. Two lists share a sweep if they contain the same
+        # flows and the ratios of the durations are equal.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -82,7 +82,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
         flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
     sites, size = scene.sites, len(scene.symbols)
     step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
-    about = "state of one site; row k of an array of states contains coordinate k at every site"
+    about = "coordinates of one site; an array of states has one row for each coordinate"
     name = "y" if scene.paired else scene.state[0].name
     state = (StateBlock(name, scene.symbols, about),)
     return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)
@@ -106,7 +106,10 @@ def _copy(scene: Problem, label: str) -> Sweep:
 
 
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for flows of single sites. In its kernel, h is the duration of the first flow."""
+    """Return the sweep for flows that change each site independently of its neighbours.
+
+    In the kernel of the sweep, h is the duration of the first flow.
+    """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
     stores = tuple(Row(RESULT, k) for k in range(len(scene.symbols)))
@@ -114,7 +117,7 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for a kick. In its kernel, h is the duration of the kick."""
+    """Return the sweep for a kick. In the kernel of the sweep, h is the duration of the kick."""
     sites = scene.sites
     assert sites is not None
     domain = SharedArguments()

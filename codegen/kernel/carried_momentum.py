@@ -97,7 +97,8 @@ class Frames:
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         q, mu = state[: self._size], state[self._size :]
         fields = self.fields()
-        # The momentum of the body frame is Ad*_q mu. The inverse map Ad*_{q^-1} returns to the space frame.
+        # If mu is the momentum in the space frame, Ad*_q mu is the momentum in the body frame. The inverse of
+        # this map is Ad*_{q^-1}.
         turned = (self.scene.apply(domain, name, None, (q, mu))[0] for name in ("Adt", "Adtinv"))
         first, second = (Kernel(self.program.name, fields, (), (), tuple(new)) for new in turned)
         return Carried(first, second, self._size)
@@ -107,8 +108,7 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    # If a group acts on itself, a point is a group element. The last line returns the description of a group
-    # element.
+    # If a group acts on itself, a point is a group element and is described as such.
     if kind is Kind.POINT and not action.on_itself:
         return f"point on which {group.name} acts by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -21,7 +21,7 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""The cost of a function call, in units of one arithmetic operation.
+"""The cost of a function call. The cost of an arithmetic operation is 1.
 
 The number was chosen with ``benchmarks/emitted.py``. The value 20 changes no emitted file, and the value 5
 changes the code of five explicit methods (``orderconds regenerate --check``).
@@ -43,9 +43,9 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel.
-    # Then two kernels are compared. One computes products in the given order, and the other one multiplies
-    # constant factors first.
+    # If the program has no flows and the group is not a cotangent bundle, all variants of the group give the
+    # same kernel. Then only the order of factors in products is chosen: the given order, or constant factors
+    # first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # A run applies deferred flows only at its beginning or end. So only the rest of the program, called the
@@ -54,15 +54,15 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # The time of a variant depends on subexpressions that the formulas of the group and of the scene have in
-    # common, so all variants are compiled.
+    # All variants are compiled. The formulas of the group and of the scene can share subexpressions, so the
+    # time of a variant is known only from its kernel.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
-    # Two candidates may have equal kernels, so the chosen kernel is found by identity.
+    # Kernels of different candidates may be equal, so the chosen kernel is compared with ``is``.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
@@ -74,14 +74,15 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
     If some kernels contain outlined functions, only these kernels are compared.
     """
     # Functions are outlined only in long steps. The time of a long step is limited by the instruction cache,
-    # not by latency.
+    # not by latency, so the shorter code with outlined functions is preferred.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return the estimated time of a step in units of an addition, and the number of operations.
+    """Return the estimated time of a step and its number of operations. The unit of time is one addition.
 
-    The number of operations decides between kernels with equal times.
+    A function call counts as :data:`CALL` operations. The number of operations decides between kernels with
+    equal times.
     """
     nodes = walk(kernel.expressions())
     # Symbols and constants cost nothing, and a change of sign is usually part of an addition.

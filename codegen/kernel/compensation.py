@@ -2,7 +2,8 @@
 
 In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
 Compensation stores this error, called the carry, and adds it to the next increment d. A step computes s = d +
-carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are smaller by the factor d/y0.
+carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are only as large as the last bit
+of d.
 
 The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
 cancellation. The formulas of the increments are derived from the compiled step.
@@ -70,8 +71,8 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # The sum has a name, because the carry must be computed from the rounded sum. Simplifying total - old
-        # to the increment would remove the rounding error.
+        # The carry must be computed from the rounded sum, so the sum has a name. Without a name,
+        # ``total - old`` would be simplified to the increment, and the carry would be zero.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -84,7 +85,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        # A deferred flow would change the state outside the step and would not update the carries.
+        # No flow is deferred, because a deferred flow would change the state without updating the carries.
         deferred=None,
         estimate=None,
         vary=None,
@@ -99,8 +100,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # The method ``expressions`` of a kernel with this single statement returns all expressions that the
-        # statement reads.
+        # A kernel that contains only this statement lists the expressions that the statement reads.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -138,8 +138,7 @@ class Increments:
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
-            # If a is x + d, then a + b - x is d + b. The large number x cancels before any rounding error
-            # occurs.
+            # If a = x + d, then (a + b) - x = d + b. Here x cancels in the formula, so no digits are lost.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
             if e.op == "add" and (rest := self.of(b, name)) is not None:
@@ -175,7 +174,8 @@ class Increments:
             if first is not None and second is not None:
                 # For a product of two factors f and g: f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
-        # The identity c_0(z) - 1 = -z c_2(z) avoids the cancellation in cos - 1.
+        # The Stumpff functions c_0(z) = cos(sqrt(z)) and c_2 satisfy c_0(z) - 1 = -z c_2(z). This formula
+        # avoids the cancellation in cos - 1.
         if f.op == "call" and f.payload == "stumpff0":
             return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
         return None

@@ -1,8 +1,9 @@
 """Shorten the critical path after each function call.
 
-The critical path is the longest chain of dependent operations. A processor executes several products at a
-time, but a step that consists of flows is one such chain. The chain contains an angle, two trigonometric
-functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
+The critical path is the longest chain of dependent operations. A processor can execute several products at
+the same time, but the operations of a chain must wait for each other. A step that consists of flows is one
+long chain: an angle, two trigonometric functions c_1 and c_2 of the angle, the rotated attitude, the new
+momentum, and the next angle.
 
 The two functions take long to compute. Therefore this module rewrites expressions, so that few operations
 wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1 and c_2. Then
@@ -22,12 +23,12 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.kernel import Kernel, Let
 
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
-"""Latency of operations, in units of an addition.
+"""Latency of operations. The unit is the latency of one addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
 cycles. The latency of a call is the latency of a polynomial that approximates the function.
 ``benchmarks/emitted.py`` times the resulting steps. If the latency of a division is set to 2 or 8, the code
-of five explicit methods does not change. If the latency of a call is set to 3 or 12, only
+of five explicit methods does not change. If the latency of a call is set to 3 or 12, only the code of
 splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
@@ -63,18 +64,18 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments sorted by the time at which their values are ready. Times are rounded down to
-    multiples of the latency of a function.
+    """Return assignments sorted by the time at which their values are ready.
 
     A processor reorders only the next few hundred instructions. Therefore operations that can run in parallel
-    with the longest chain must be near this chain in the code. A sort by exact times would separate
-    operations that read the same values.
+    with the longest chain must be near this chain in the code. Before the sort, times are rounded down to
+    multiples of the latency of a call. A sort by exact times would separate operations that read the same
+    values.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
-        # All later expressions that read this name share one node, so they find the time in ``ready``.
+        # Every use of this name is the same node, so ``ready`` contains the time for all later uses.
         ready[let.value.space.sym(let.name).id] = times[-1]
     # The sort is stable, and no value is ready before its arguments. So each name is defined before its use.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
@@ -165,7 +166,7 @@ class _Chains:
         """Return the ids of the nodes that are expanded to sums of products.
 
         Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        The operation that reads the node is not part of the expansion.
+        At least one operation that reads the node cannot be part of the expansion.
         """
         ends = set()
         for node in self.nodes:
@@ -174,18 +175,18 @@ class _Chains:
                 # more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # The square ``x * x`` has no other argument, so ``others`` is empty. The square is not linear
-                # in x.
+                # For the square ``x * x``, ``others`` is empty. The test below then finds that the square is
+                # not linear in x.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # The slow results of ``arg`` are its results of slow operations with the level ``late``. A
-                # product is linear in these results if the other factor has a lower level, because this
-                # factor then does not contain them.
+                # Let r be the results of slow operations with the level ``late`` that occur in ``arg``. A
+                # product of ``arg`` and a factor is linear in r if the level of the factor is lower than
+                # ``late``, because r does not occur in such a factor.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``arg`` is expanded in two cases: ``node`` is not linear in the slow results of ``arg``, or
-                # ``node`` has a higher level than ``arg``.
+                # ``arg`` is expanded in two cases: ``node`` is not linear in r, or ``node`` has a higher
+                # level than ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -204,14 +205,13 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # An expression of a lower level contains no result of a slow operation of this ``level``. Its only
-        # term has the key None.
+        # An expression of a lower level contains no late factor, so it is a single term with the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
             return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
-            # The sum is copied, because ``_sum`` stores its result and may return it again.
+            # The sum is copied before terms are added, because ``_sum`` may return the same dictionary again.
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
@@ -231,11 +231,14 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # The result of a slow operation, or of an operation that is not linear, is a late factor itself.
+        # Any other node cannot be expanded, so the node itself is a late factor (:data:`Sum`).
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two terms with the same late factor c: c x + c y = c (x + y), or c x - c y = c (x - y)."""
+        """Add two terms with the same late factor c (:data:`Sum`), for example c x + c y = c (x + y).
+
+        The terms and the result do not contain the factor c itself.
+        """
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -252,8 +255,8 @@ class _Chains:
             # As in Huffman coding, adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # Terms with different signs are subtracted, and the difference has a positive sign. Two negative
-            # terms are added, and the sum keeps the negative sign.
+            # If the signs differ, the negative term is subtracted from the positive one, and the result has a
+            # positive sign. If the signs are equal, the terms are added, and the sum has the same sign.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
@@ -272,7 +275,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Compute the times of a new node and of its new arguments, and return the node."""
+        """Compute when a new node and its new arguments are ready, and return the node."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

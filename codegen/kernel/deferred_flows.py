@@ -43,7 +43,11 @@ class Parted:
 
 
 def part(program: Program, scene: Problem) -> Parted | None:
-    """Return the program of a splitting method as three programs, or None if no flow can be deferred."""
+    """Split the program of a splitting method into programs for the start, the steps and the end of a run.
+
+    The result is None if the program contains other operations than flows, if no flow can be deferred to a
+    later step, or if no flow would remain in the steps.
+    """
     letters = word(program)
     if letters is None:
         return None
@@ -54,7 +58,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # The flows of parts in ``free`` commute with all other flows, so they are applied after the last step.
+    # The flows of parts in ``free`` commute with all other flows, so they can be applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
@@ -63,7 +67,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All joined flows have the same durations, so the durations are read from the first pair.
+    # The durations are the same in all entries of ``joined``, so they are read from the first entry.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     # No flow is in both ``heads`` and ``tails``. Otherwise two leading flows would belong to the same part,
     # but all leading flows belong to different parts.
@@ -109,7 +113,7 @@ Timed = tuple[Letter, Var | None]
 """A flow with the variable that replaces its duration. None means that the duration is not replaced."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Two flows that are joined across steps.
+"""A leading flow of a step and a final flow of the previous step, which are joined into one flow.
 
 The first two entries are the indices of the leading flow and of the final flow. The third entry is the
 duration of the final flow. The fourth entry is the sum of the durations of both flows.
@@ -119,18 +123,21 @@ duration of the final flow. The fourth entry is the sum of the durations of both
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the pairs of a leading and a final flow that are joined across steps."""
+    """Return the pairs of flows that are joined into one flow.
+
+    A pair consists of a leading flow of a step and a final flow of the previous step.
+    """
     # The time t + h of a step is the time t of the next step, so flows at these times can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # ``k`` is the index of the flow from the end of ``kept``, and ``j`` is its index from the
-            # beginning.
+            # ``k`` is the index of ``tail`` if the flows are counted from the end of ``kept``. Counted from
+            # the beginning, its index is ``j``.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
-            # With i = j, a flow would be joined with itself.
+            # If i = j, ``head`` and ``tail`` are the same flow, so there are no two flows to join.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
     # All joined flows read their duration from one variable, so they must have equal durations.
@@ -140,7 +147,7 @@ def _joined(
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # The first n flows commute pairwise, so each of them can be moved to the beginning.
+    # The first n flows commute pairwise, so each of them can be applied first.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -155,7 +162,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
-    # All stage times are copied, but the kernel assigns only those that its outputs read.
+    # All stage times are copied. The kernel of the new program assigns only those that its flows read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.

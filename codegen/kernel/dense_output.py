@@ -19,18 +19,20 @@ from codegen.passes import abelian, blocks, dead, fold_zeros, fuse, value_number
 from codegen.scene.problem import Problem
 
 COORDINATES = "coordinates"
-"""The name under which the second kernel receives the coordinates of x."""
+"""The name for the coordinates of the algebra element x in the kernel that computes exp(x).y."""
 
 
 def continuous(program: Program, problem: Problem, order: int) -> Continuous:
-    """Return the two kernels of a continuous extension.
+    """Return the kernels of a continuous extension, which gives the state at the time t + theta h in a step.
 
-    The outputs of ``program`` are the coefficients of the polynomial sigma. ``order`` is the order of
-    accuracy of the extension.
+    One kernel computes the coefficients of a polynomial sigma(theta) with values in the Lie algebra. These
+    coefficients are the outputs of ``program``. The other kernel computes exp(x).y for x = sigma(theta).
+    ``order`` is the order of accuracy of the extension.
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # No functions are outlined, because their names could be equal to names in the kernel of the step.
+    # With the option COMBINED no functions are outlined. Outlined functions could have the same names as
+    # functions in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     # The program has one output for each power of theta, starting with theta^1.
     degree = len(program.outputs)
@@ -55,6 +57,6 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
 
     schedule = Assignments((), ends, {}, name)
     body = tuple(s for s in schedule.run() if isinstance(s, Let))
-    # The coordinates of x are passed like an additional part of the state.
+    # The coordinates of x are inputs of the kernel, so they form an additional field.
     fields = (*kernel.state, Field(COORDINATES, names, "coordinates in the Lie algebra"))
     return Kernel(kernel.name, fields, kernel.scalars, body, schedule.outputs)

@@ -21,12 +21,12 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""Above this number of unknowns, subexpressions that are constant in a step are not expanded in Newton's
-matrix.
+"""The largest number of unknowns for which all products of sums in Newton's matrix are multiplied out. With
+more unknowns, sums that are constant in a step are kept as single factors.
 
-With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
-values make the emitted code longer. Near the limit the choice matters little: the kernel of vcf:cf4 on dipole
-(12 unknowns) has 439 assignments without expansion and 472 with it.
+With few unknowns, kept sums occupy registers that the sweeps need. With many unknowns, multiplying out makes
+the emitted code longer. Near the limit the choice matters little: the kernel of vcf:cf4 on dipole
+(12 unknowns) has 439 assignments if the sums are kept, and 472 if they are multiplied out.
 """
 
 LONGEST_MATRIX = 1500
@@ -38,9 +38,9 @@ limit of 6000 gives the same kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""Costs of operations, in units of an addition or product. Other operations have the cost 1.
+"""Costs of operations. All operations that are not listed, such as additions and products, have the cost 1.
 
-The weights are rough latencies. They only decide whether one cost is less than half of another cost.
+The weights are rough latencies. They only decide whether a value that is read after a loop is computed again.
 """
 
 
@@ -51,7 +51,7 @@ class Block:
     - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
     - ``images`` are the values g(u), or the residuals of the equations.
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
-    - ``leading`` is true if the matrix of an equation u = g(u) is expanded to first order in h.
+    - ``leading`` is true for the simplified Newton method, whose matrix is expanded to first order in h.
     - ``changes`` are the names of the variables that contain the changes of the unknowns in the last sweep.
     - ``kept`` contains the names and expressions of body values that later statements read.
     """
@@ -80,8 +80,8 @@ def compared(
     has no residuals, or if the residuals cannot be expanded in h.
 
     Later statements read some values of the body. Newton's method changes the unknowns after the body of the
-    last sweep. A value is then corrected by a formula of first order in this change. If the correction takes
-    half of the operations of a new computation or more, the value is computed again.
+    last sweep. Therefore these values are corrected by a formula of first order in the change. If the
+    correction takes at least half of the operations of a new computation, the value is computed again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -91,7 +91,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # In normal forms, each expression in ``free`` stays a single symbol and is not multiplied out.
+    # ``NormalForms`` treats each expression in ``free`` as a single symbol and does not multiply it out.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
@@ -134,13 +134,13 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the sums and differences among the expressions of all variables except ``inside``."""
+    """Return the expressions in ``env`` that are sums or differences. Variables in ``inside`` are skipped."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
-    """Return the variables that a program reads after the equations ``block``."""
+    """Return the variables that are read by the statements after the equations ``block``."""
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
@@ -176,8 +176,8 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix, without operations that the images also contain."""
-    # The sweep computes the images in any case, so shared operations cost nothing more.
+    """Return the number of operations in the matrix ``rows`` that do not also occur in ``images``."""
+    # Each sweep computes the images, so the matrix can use the results of their operations.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 

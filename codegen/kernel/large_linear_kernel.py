@@ -32,7 +32,7 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""If the absolute value of a sum of coefficients is below this limit, the sum counts as zero."""
+"""A sum of coefficients of matrices h A(t_i) counts as zero if its absolute value is below this limit."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -156,9 +156,9 @@ class _Builder:
         )
 
     def chain(self, end: Var, statements: dict[Var, Assign]) -> list[Var]:
-        """Return the exponents x whose exponentials exp(x) lead from the old state to the point ``end``.
+        """Return the exponents x in the order in which their exponentials exp(x) are applied.
 
-        The exponent that is applied first comes first.
+        The product of the exponentials maps the old state to the point ``end``.
         """
         result: list[Var] = []
         while end in statements:
@@ -167,7 +167,7 @@ class _Builder:
                 what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
-            # The program is followed backwards from its output, so each exponent is inserted at the front.
+            # The last exponential is found first, so each exponent is inserted before those already found.
             result.insert(0, x)
         return result
 
@@ -179,7 +179,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A(t) is h^-1 times the matrix h A(t). Therefore ``power``, the exponent of 1/h, is 1.
+            # Values are combinations of the matrices h A(t_i), divided by h^``power``. So A(t) has power 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
@@ -223,7 +223,7 @@ class _Builder:
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
                     # A term with the coefficient zero is removed, because it would cost a product with a
-                    # matrix. Besides, ``is_zero`` requires that a zero value has no terms.
+                    # matrix. Besides, ``is_zero`` is true only if there are no terms.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -296,14 +296,15 @@ class _Builder:
 
 
 def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
-    """Return the variables that must be computed for ``var``, an element of the algebra, with ``var`` last.
+    """Return the variables that must be computed for the algebra element ``var``, including ``var``.
 
     Each variable comes after the variables from which it is computed.
     """
     order: list[Var] = []
 
     def visit(v: Var) -> None:
-        # An input of the program has no statement. A variable in ``order`` is not listed again.
+        # An input of the program has no statement and is not computed. A variable that is already in
+        # ``order`` is not listed again.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:
@@ -325,7 +326,7 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     # sum of the coefficients of x - c y is the same for every c, so x is not changed either.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
-    # With this ratio c, the coefficients of x - c y add up to zero.
+    # The coefficients of x - ``ratio`` * y add up to zero.
     ratio = totals[0] / totals[1]
     nodes = dict(x.nodes)
     for node, c in y.nodes.items():

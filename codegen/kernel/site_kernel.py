@@ -106,7 +106,7 @@ def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
     # The states of the neighbours are run-time inputs of the problem of one site. A lattice reads these
     # states from its arrays.
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
-    about = "state of one site; row k of an array of states contains coordinate k at every site"
+    about = "coordinates of one site; an array of states has one row for each coordinate"
     name = "y" if problem.paired else problem.state[0].name
     state = (StateBlock(name, problem.symbols, about),)
     return Kernel(program.name, state, (TIME, "h", *known), (), (), sites=step)
