@@ -148,7 +148,7 @@ def test_an_odd_number_of_coordinates_has_no_momentum():
     from codegen.scene.extended_phase_space import extended
 
     A = Matrix([[0, t, 0], [0, 0, 0], [0, 0, sin(t)]])
-    with pytest.raises(SceneError, match="3 coordinates"):
+    with pytest.raises(SceneError, match="is odd: 3;"):
         extended(scene(A, GL(3), (1, 2, Rational(1, 2))))
 
 

@@ -22,7 +22,7 @@ def test_arrays_make_the_same_tableau_again(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["strang", "magnus4"])
 def test_families_without_arrays_are_refused(name: str) -> None:
-    with pytest.raises(TableauError, match="in a table; expected format json"):
+    with pytest.raises(TableauError, match="as a table; expected a JSON file"):
         to_arrays(as_data(Tableau.load(find(name))), "a table")
 
 
@@ -53,10 +53,10 @@ def test_the_family_follows_from_the_names_of_the_arrays(entries: dict[str, obje
         ({"name": "t"}, "no array of coefficients"),
         ({"A": [["0"]], "weights": ["1"]}, "an array with the unknown name 'weights'"),
         ({"exponentials": [["1"]], "count": ["0", "1"]}, "no array start"),
-        ({"exponentials": [["1"]], "count": ["0", "2"], "start": ["0", "0"]}, "does not agree"),
-        ({"exponentials": [["1"]], "count": ["-1", "2"], "start": ["0", "0"]}, "does not agree"),
-        ({"exponentials": [["1"]], "count": ["0", "1"], "start": ["0"]}, "does not agree"),
-        ({"exponentials": [["1"], ["1"]], "count": ["0", "1"], "start": ["0", "0"]}, "does not agree"),
+        ({"exponentials": [["1"]], "count": ["0", "2"], "start": ["0", "0"]}, "contradict each other"),
+        ({"exponentials": [["1"]], "count": ["-1", "2"], "start": ["0", "0"]}, "contradict each other"),
+        ({"exponentials": [["1"]], "count": ["0", "1"], "start": ["0"]}, "contradict each other"),
+        ({"exponentials": [["1"], ["1"]], "count": ["0", "1"], "start": ["0", "0"]}, "contradict each other"),
         ({"exponentials": [["1"]], "count": ["0", "x"], "start": ["0", "0"]}, "an integer"),
         ({"A": [["0"]], "b": ["1"], "claims": "[1]"}, "an object in JSON"),
     ],

@@ -283,7 +283,7 @@ def test_without_claims_the_format_names_the_family() -> None:
         ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "use the family 'magnus'"),
         ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "use the family 'cayley'"),
         ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "use the family 'magnus'"),
-        ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "last exponent"),
+        ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "the exponent that acts last"),
         ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "cannot be converted to a Runge-Kutta method"),
         ("magnus", SPLITTING + 'step = [["T", 1]]', "is not a method of family magnus"),
     ],
