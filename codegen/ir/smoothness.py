@@ -22,8 +22,9 @@ Sides = tuple[int, ...]
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return the selections in expressions. If the arguments of a selection contain other selections, these
-    come before it.
+    """Return all selections in the expressions ``roots``.
+
+    Selections in the arguments of another selection come before that selection.
     """
     # ``walk`` yields the arguments of a node before the node.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
@@ -44,13 +45,13 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # The selections inside ``args`` are already replaced by their formulas. The new formula and its
-            # margins are built from ``args``, so they contain no selections.
+            # In ``args`` all selections are already replaced by formulas. Hence the formula and the margins
+            # of this node contain no selections.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # A copy of the node gets symbols as arguments. ``evaluate`` then replaces these symbols by the
-            # new arguments ``args`` and simplifies the result.
+            # ``evaluate`` replaces symbols by expressions, and simplifies the result. It is applied to a copy
+            # of the node whose arguments are symbols. These symbols are replaced by ``args``.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -61,10 +62,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return a pair: one of the formulas of a selection, and a list of expressions called margins.
+    """Return the formula of a selection with the index ``side``, and a list of margins.
 
-    ``args`` are the arguments of the selection, and ``side`` is the index of the formula. The selection
-    selects this formula if all margins are positive.
+    ``args`` are the arguments of the selection. Margins are expressions. If all margins are positive, the
+    selection selects this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -73,13 +74,13 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         def constant(k: int) -> Expr:
             return domain.number(Number.rational(*knots[k].as_integer_ratio()))
 
-        # The margins are the distances from the ends of the interval. The first interval has no lower end,
-        # and the last interval has no upper end.
+        # The margins are the distances of x from the two ends of the interval. The first interval has no
+        # lower end, and the last interval has no upper end.
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # Side 1 means that x is positive. ``choose(x, a, b)`` equals ``a`` for positive x, so ``a`` and ``b`` are
-    # exchanged here.
+    # The tuples contain the formula of side 0 (x is not positive), then the formula of side 1. In
+    # ``choose(x, a, b)`` side 1 selects ``a``, so ``a`` and ``b`` are exchanged.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
@@ -100,7 +101,7 @@ def features(roots: Sequence[Expr]) -> str:
         if isinstance(node.payload, PiecewisePolynomial):
             words.append(f"a table with {len(node.payload.knots)} knots")
         elif node.payload == ANGLE:
-            words.append(f"{node} where it jumps from pi to -pi")
+            words.append(f"the jump of {node} from pi to -pi")
         elif node.payload == ABSOLUTE:
             words.append(f"abs({_argument(node)})")
         elif node.payload == CHOOSE:
@@ -115,14 +116,14 @@ SHOWN = 3
 
 def _argument(node: Expr) -> str:
     """Return the text of the first argument of a selection, without a minus sign. The sign does not matter,
-    because x = 0 and -x = 0 are the same condition.
+    because x and -x are zero at the same points.
     """
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # a - b and b - a have the same zeros. Both differences get the same text, in which a constant is
-        # last.
+        # The differences a - b and b - a have the same zeros, so both get the same text. In this text, a
+        # constant comes last.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
     # ``str`` encloses sums, products and quotients in parentheses. The outer parentheses are removed.

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Sign = Callable[["Scalar"], "int | None"]
-"""The sign of a scalar: -1, 0 or 1, and None for a NaN."""
+"""A function that returns the sign of a scalar: -1, 0 or 1, or None for a NaN."""
 
 PREFIX = "table_"
 """The beginning of the name of every piecewise polynomial."""
@@ -26,8 +26,8 @@ class PiecewisePolynomial(str):
     """A piecewise polynomial in x.
 
     Between ``knots[k - 1]`` and ``knots[k]`` its value is the sum of ``rows[k][j]`` (x - ``bases[k]``)^j over
-    j. The numbers ``knots`` increase. There is one row more than there are knots. At a knot, the polynomial
-    of the interval above the knot is used.
+    j. The entries of ``knots`` are in increasing order. There is one row more than there are knots. At a
+    knot, the polynomial of the interval that begins there is used.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -47,15 +47,16 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the piecewise polynomial. Zeros are appended to the rows, so that all rows have the same
-        length and at least two entries.
+        """Return the piecewise polynomial. Zeros are appended to the rows of coefficients, so that all rows
+        have the same length and at least two entries.
         """
-        # With two entries the value at x = NaN is c_0 + c_1 NaN = NaN, also for a constant polynomial.
+        # A polynomial with one coefficient would have a finite value at x = NaN. With two coefficients, the
+        # value is a NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
-        # Piecewise polynomials are compared as strings, that is, by their names. The digest gives different
-        # polynomials different names.
+        # Piecewise polynomials are compared by their names. A name contains a digest of ``content``, so
+        # different polynomials have different names.
         table = super().__new__(cls, PREFIX + sha256(content.encode()).hexdigest()[:8])
         table.knots, table.bases, table.rows = knots, bases, rows
         return table
@@ -70,7 +71,7 @@ class PiecewisePolynomial(str):
         return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
 
     def derivative(self) -> PiecewisePolynomial:
-        """Return the derivative as a piecewise polynomial. At a knot it is the derivative from above."""
+        """Return the derivative as a piecewise polynomial. At a knot it is the derivative from the right."""
         # The derivative of c (x - b)^j is j c (x - b)^(j-1). Entry j of a row thus becomes entry j - 1.
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
@@ -78,9 +79,9 @@ class PiecewisePolynomial(str):
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
         """Return the value at x, where x is a scalar of ``domain``.
 
-        ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If a sign is None, x is returned.
+        ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If x is a NaN, the result is x.
         """
-        # Bisection computes the number of knots that are not above x. This number is the index of the
+        # Bisection counts the knots that are less than or equal to x. Their number is the index of the
         # interval that contains x.
         first, last = 0, len(self.knots)
         while first < last:

@@ -47,14 +47,14 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. A call of such a function is
-        # permitted if its arguments are constant, because constant nodes have been skipped.
+        # ``partials`` raises an error for a function without a derivative. Calls with constant arguments do
+        # not reach this line, so they are permitted also for such a function.
         slopes = partials(node)
         total = node.space.zero
         # By the chain rule, the tangent is the sum of partial derivatives times tangents of the arguments.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # If the terms cancel and the tangent is zero, the node is treated as constant.
+        # The terms may cancel. A node whose tangent is zero gets no entry in ``known``, like a constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

@@ -52,8 +52,8 @@ class OrderLoop:
     """The expressions that are computed before the loop over the order n > 0, and the expressions in the
     loop.
 
-    - ``first`` are expressions that are computed before the loop. In the loop they are represented by symbols
-      with the names ``names``.
+    - ``first`` are expressions that are computed before the loop. In the loop, symbols represent them.
+    - ``names`` are the names of these symbols.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
     - ``sums`` are the names of the symbols for the inner sums.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
@@ -74,12 +74,12 @@ class OrderLoop:
 def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     """Return the expressions of the loop that computes the coefficients of ``recurrence``.
 
-    The scalars of the recurrence must be expressions of ``space``, and its ``scale`` must be 1.
+    The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
     # This call also computes the coefficients that the method ``constant`` tests.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
-    # Because of y' = F, coefficient n + 1 of y is 1/(n + 1) times coefficient n of F.
+    # Let F be the derivative of a coordinate y. Coefficient n + 1 of y is 1/(n + 1) times coefficient n of F.
     scale = space.sym(NEXT)
     following = []
     for number, slope in recurrence.slopes:
@@ -92,7 +92,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
-    # After this loop no further inner sums are added.
+    # After this loop the list ``work.pairs`` is complete.
     count = len(work.pairs)
     return OrderLoop(
         tuple(f"first.{k}" for k in range(len(work.first))),
@@ -123,8 +123,8 @@ class _Loop:
     - ``pairs`` are the pairs of series in the inner sums.
     - ``first`` are expressions that are computed before the loop over n. In the loop they are represented by
       symbols.
-    - ``known`` maps the id of a series to the expression of its coefficient n. The value is None for a series
-      that is constant in time.
+    - ``known`` maps the id of a series to the expression of its coefficient n, or to None if the series is
+      constant in time.
     - ``places`` contains the index in ``pairs`` of each pair of series.
     - ``positions`` contains the index in ``first`` of each expression.
     """
@@ -138,13 +138,12 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # In the pass of the loop for the order n, coefficient n of each coordinate is already known. A symbol
-        # represents it.
+        # When the emitted loop begins with the order n, coefficient n of each coordinate is already known. A
+        # symbol represents it.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The time is a polynomial of degree 1. Its coefficient n is 1 for n = 1, and 0 for larger n, so a
-        # symbol represents it.
+        # Coefficient n of the time is 1 for n = 1, and 0 for n > 1. A symbol represents this number.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -167,15 +166,15 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Return True if a series is constant in time. Only the first :data:`PROBED` coefficients are
-        tested.
+        """Return True if a series is treated as constant in time. The test uses only the coefficients n with
+        0 < n < :data:`PROBED`.
         """
-        # A coefficient is None only if it is zero for all states.
+        # None represents a coefficient that is zero for all states.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a symbol for ``x``, an expression that is computed before the loop over n. A constant is
-        returned unchanged.
+        """Return a symbol for ``x``, and add ``x`` to the expressions that are computed before the loop over
+        n. A constant is returned unchanged.
         """
         if x.op == "const":
             return x
@@ -205,7 +204,10 @@ class _Loop:
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n: the inner sum of a and b plus a_n b_0."""
+        """Return the sum of a_j b_{n-j} over 0 < j <= n.
+
+        This is the inner sum (0 < j < n) of a and b, plus a_n b_0.
+        """
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -244,8 +246,8 @@ class _Loop:
         space = self.space
         match series:
             case Root(a=a):
-                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the inner sum of s and s.
-                # ``inverse`` is 1/(2 s_0).
+                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the sum of s_j s_{n-j} over
+                # 0 < j < n. ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # In the recurrence of p = a^e, the product a_j p_{n-j} has the factor (e j - (n - j))/n. This
@@ -267,7 +269,8 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The two terms belong to y and x. If one of them is constant in time, its term is zero.
+                # The derivative of the angle is the difference of a term with y' and a term with x'. If y or
+                # x is constant in time, its term is zero.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -276,7 +279,8 @@ class _Loop:
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
-                # a l' = a' gives n a_n = n a_0 l_n plus the sum of j l_j a_{n-j} over 0 < j < n.
+                # The logarithm l satisfies a l' = a'. Hence n a_n is n a_0 l_n plus the sum of j l_j a_{n-j}
+                # over 0 < j < n.
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
         raise AssertionError(type(series))
@@ -291,8 +295,8 @@ def _operands(series: Series) -> Sequence[Series]:
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
             # The formula for coefficient n of the sine does not contain coefficient n of the cosine. The
-            # cosine is therefore not listed here. Otherwise each of the two series would have to be computed
-            # before the other.
+            # cosine is therefore not listed here. If it were listed, each of the two series would have to be
+            # computed before the other.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

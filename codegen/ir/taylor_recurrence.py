@@ -79,11 +79,11 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
-        # If the node equals c x^e, only the series of x is needed.
+        # The series of a node c x^e is built from the series of x.
         if base is not node:
             return (base,)
         if node.op == "div":
-            # If the divisor equals d x^e, only the series of x is needed for the divisor.
+            # A quotient with the divisor d x^e is built from the series of the numerator and of x.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -116,8 +116,9 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # The base of this power is c x^e. If e = 1, the power is computed by products. For any other
-                # e, for example if the base is a root, the result is one power of x.
+                # The node is an integer power of c x^e. If e = 1, the node is not rewritten, because its
+                # series is computed by products. Otherwise, for example for a power of a root, the node is
+                # rewritten as one power of x.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -125,15 +126,15 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
-                # The factors c x^e and d y^f are joined only if x and y are the same expression. For e = f =
-                # 1 the node is not changed.
+                # The node is the product or quotient of c x^e and d y^f. It is rewritten as one power only if
+                # x and y are the same expression, and e or f is not 1.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # The recurrence of a general power divides by x. Positive integer powers are therefore kept as
-        # products.
+        # The recurrence of a power x^e divides by x, and x may be zero. For e = 0, 2, 3, ... the node is
+        # therefore not rewritten as a power.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -165,7 +166,7 @@ class _Builder:
                 below = self.known[divisor.id]
                 if e == 1:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
-                # a/(c x^e) is computed as 1/c times the product of a and x^-e.
+                # The quotient a/(c x^e) is computed as 1/c times the product of a and x^-e.
                 other = self.power(below, divisor, -e)
                 return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
             case "call" if node.payload == ANGLE:
@@ -210,7 +211,7 @@ class _Builder:
         return self.shared[key]
 
     def integer_power(self, a: Series, n: int) -> Series:
-        """Return the series a^n for n >= 1. It is computed by repeated squaring from the leading bit of n."""
+        """Return the series a^n for n >= 1, computed by repeated squaring."""
         result = a
         # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because the first value
         # of ``result`` already accounts for it.
@@ -272,7 +273,8 @@ class _Builder:
             case _:
                 raise SceneError(
                     f"no recurrence is known for the Taylor coefficients of {name}",
-                    expected=f"formulas with + - * /, constant powers, {', '.join(MATHEMATICAL)}",
+                    expected="formulas with + - * /, constant powers, and the functions "
+                    f"{', '.join(MATHEMATICAL)}",
                 )
         return self.shared[key]
 
@@ -281,8 +283,9 @@ class Recurrence:
     """Computes the power series in s of the solution y(t + s * ``scale``) of a differential equation.
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
-    - ``roots`` are the expressions of the derivatives of the coordinates. If there are fewer derivatives than
-      coordinates, the caller must compute the coefficients of the last coordinates, and use :meth:`append`.
+    - ``roots`` are the expressions of the derivatives of the coordinates. There may be fewer derivatives than
+      coordinates. Then the caller must compute the coefficients of the last coordinates, and must append the
+      coefficients of all coordinates by :meth:`append`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
@@ -296,20 +299,20 @@ class Recurrence:
         scale: Scalar,
     ) -> None:
         self.domain, self.scale = domain, scale
-        # ``closed=False`` means that :meth:`append` will add further coefficients.
+        # With ``closed=False``, the further coefficients of a coordinate are added later by :meth:`append`.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
-        # The time t + s * ``scale`` is a polynomial of degree 1 in s.
+        # The power series of the time in s is t + s * ``scale``, so it has two coefficients.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # The numeric factor of each derivative is separated, because :meth:`following` multiplies it by 1/(n
-        # + 1).
+        # If a derivative is a number times a series, the number is separated. :meth:`following` then combines
+        # this number and 1/(n + 1) into one factor.
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
         """Return the coefficients 0, ..., degree of each coordinate.
 
-        A coefficient that is zero for all states is None.
+        None represents a coefficient that is zero for all states.
         """
         # All coordinates have the same number of known coefficients. This number is read from the first
         # coordinate.
@@ -325,8 +328,8 @@ class Recurrence:
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
-            # The product of ``number`` and ``scale`` is computed only once, even if several coordinates have
-            # the same ``number``.
+            # Several coordinates may have the same ``number``. Its product with ``scale`` is computed only
+            # once.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))
@@ -338,7 +341,10 @@ class Recurrence:
             coordinate.terms.append(x)
 
     def series(self, root: Expr) -> Series:
-        """Return the power series of ``root``, an expression in the coordinates and the time."""
+        """Return the power series of the expression ``root``.
+
+        It may contain the coordinates, the time and all symbols in ``values``.
+        """
         return self.builder.of(root)
 
 

@@ -1,5 +1,5 @@
-"""Taylor series in time, with one class for each operation or function. A class contains the recurrence of
-the coefficients of its result.
+"""Taylor series in time, with one class for each operation or function. Each class contains the recurrence
+that computes the coefficients of the series.
 
 The sum of two series is computed term by term, and a product by Cauchy's convolution. The recurrence of each
 other function follows from an algebraic or differential equation for the result (R. E. Moore, *Interval
@@ -124,7 +124,7 @@ class Quotient(Series):
             # The division by b_0 is replaced by a product with 1/b_0, because a product is cheaper.
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
-        # The sum contains only lower coefficients of q, which are known.
+        # The sum contains only the known coefficients q_0, ..., q_{n-1} of the quotient.
         rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -201,7 +201,7 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The series t a'(t), which has the coefficients n a_n."""
+    """The series with the coefficients n a_n. It is s a'(s) if the series a(s) is the sum of a_n s^n."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -223,7 +223,7 @@ class Exponential(Series):
         """Return coefficient n of e = exp(a). For n > 0 it is the sum of j a_j e_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
-        # This follows from the differential equation e' = a' e.
+        # The recurrence follows from the differential equation e' = a' e.
         return _mean(self.domain, self.slope, self, n)
 
 
@@ -233,13 +233,16 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # The recurrence follows from a l' = a', where l is the logarithm. Its derivative l' gives the terms j
-        # l_j.
+        # The recurrence follows from a l' = a', where l is the logarithm. ``slope`` has the coefficients
+        # j l_j.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of l = log(a). For n > 0 it is (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0."""
+        """Return coefficient n of l = log(a).
+
+        For n > 0 it is (a_n - z/n)/a_0, where z is the sum of j l_j a_{n-j} over 0 < j < n.
+        """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
@@ -265,8 +268,8 @@ class Antiderivative(Series):
         """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # ``rate`` may depend on f(a), as in tan' = 1 + tan^2. This is possible, because coefficient n of
-        # ``rate`` is not used.
+        # The sum contains only coefficients of ``rate`` below n. Therefore ``rate`` may depend on f(a), as in
+        # tan' = 1 + tan^2.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -291,7 +294,7 @@ class Circular(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # This follows from sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
+        # The recurrence follows from sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
         mean = _mean(self.domain, self.slope, self.other, n)
         return None if mean is None else -mean if self.minus else mean
 
@@ -302,7 +305,7 @@ class Angle(Series):
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
-        # ``size`` is r, and ``rates`` are x/r and y/r.
+        # ``size`` is x^2 + y^2. ``rates`` are the quotients of x and ``size``, and of y and ``size``.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
@@ -329,7 +332,10 @@ class Chosen(Series):
         self.test, self.a, self.b = test, a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return a_n or b_n, depending on the sign of ``test``, or None if a_n and b_n are None."""
+        """Return a_n if ``test`` is positive at the beginning of the step, otherwise b_n.
+
+        If both a_n and b_n are None, the result is None.
+        """
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
@@ -339,7 +345,9 @@ class Chosen(Series):
 
 
 class Start(Series):
-    """The constant series f(a_0), where a_0 is the value of a at the beginning of the step."""
+    """The constant series f(a_0). The function f is ``function``, and a_0 is the value of the series a at the
+    beginning of the step.
+    """
 
     def __init__(self, domain: Domain, a: Series, function: Callable[[Scalar], Scalar]) -> None:
         super().__init__(domain)
@@ -353,7 +361,8 @@ class Start(Series):
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of f(a), where f is the piecewise polynomial ``table``.
 
-    All coefficients are computed with the polynomial of that interval of the table that contains a_0.
+    One interval of the table contains a_0. All coefficients are computed with the polynomial of this
+    interval.
     """
     # On one interval f is a polynomial. Hence the Taylor formula f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k has
     # finitely many terms. Horner's rule computes this sum.
@@ -389,7 +398,8 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``. Equal products are computed only
     once.
     """
-    # The index j decreases from the middle, so that the products with the newest coefficients come last.
+    # The index j decreases, so n - j increases. Products of coefficients with high indices thus come later,
+    # as in :func:`_late_last`.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
     # For even n, the product of the middle coefficient with itself occurs only once.
@@ -406,8 +416,8 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` j of the products a_j b_{n-j} by the larger of the two indices j and n - j."""
     # The coefficients with the highest indices are computed last. If their products come last in the sum, the
-    # processor can compute all other products earlier. Python's sort is stable, so the order is always the
-    # same.
+    # processor can compute all other products earlier. Python's sort is stable, so indices j with the same
+    # maximum remain in their order.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 

@@ -1,4 +1,4 @@
-"""The operation that computes the new momentum u conjugate to the time, for a linear step y -> M(t) y."""
+"""The operation that updates the momentum conjugate to the time after a linear step y -> M(t) y."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2) after a linear step from the point (y, u).
+    """The new value of the momentum u conjugate to the time, after a linear step from y to Y = (Q, P).
 
-    The number u is the momentum conjugate to the time. The prime denotes the derivative with respect to the
-    time t for fixed y and h. With Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The operation has three
-    arguments: the point (y, u) before the step, the point (Y, u), and the time t. The program ``step``
-    computes Y from y and t, and does not change u.
+    The new value is u + (Q.P' - P.Q')/2. The prime denotes the derivative with respect to the time t for
+    fixed y and h. The operation has three arguments: the point (y, u) before the step, the point (Y, u), and
+    the time t. The result is Y with the new value of u. The program ``step`` computes Y from y and t, and
+    does not change u.
     """
 
     step: Program
@@ -34,19 +34,19 @@ class TimeMomentum(Operation):
     noun = "evaluation{s} of the momentum conjugate to the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the point with the new momentum u + Y^T J Y'/2."""
+        """Return the point that consists of Y and the new momentum u + (Q.P' - P.Q')/2."""
         start, end, t = args
-        # If Y consists of expressions, it is differentiated directly. Otherwise Y consists of numbers, and
-        # :meth:`_evaluated` first computes Y again as expressions.
+        # If the point ``end`` consists of expressions, it is differentiated directly. Otherwise it consists
+        # of numbers, and :meth:`_evaluated` first computes it again as expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return Y^T J Y'/2, the increment of the momentum u, as a scalar of ``domain``."""
-        # The step and the derivative Y' are computed with expressions in symbols for y and t. At the end, the
-        # symbols are replaced by the scalars ``start`` and ``t``.
+        """Return the increment (Q.P' - P.Q')/2 of the momentum u as a scalar of ``domain``."""
+        # The step is computed with symbols for y and t, because expressions can be differentiated. At the
+        # end, the scalars ``start`` and ``t`` replace the symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
@@ -58,10 +58,13 @@ class TimeMomentum(Operation):
 
 
 def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
-    """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
-    # The first half of the point is Q, and the second half is P.
+    """Return (Q.P' - P.Q')/2 for the point ``end`` = (Q, P).
+
+    The prime denotes the derivative with respect to the symbol t.
+    """
+    # The first half of ``end`` is Q, and the second half is P.
     space, n = t.space, len(end) // 2
-    # ``t.payload`` is the name of the symbol t. ``rates`` is Y'.
+    # ``t.payload`` is the name of the symbol t. ``rates`` contains the derivatives of the entries of ``end``.
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
     for k in range(n):

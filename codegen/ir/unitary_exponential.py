@@ -1,12 +1,14 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
-Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2 and q = det
-H. Hence exp X is a linear combination of 1, H and H^2 whose coefficients depend only on p and q. The
-coefficients are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q. This method has no
-divisions, and is also accurate for equal eigenvalues (M. Luescher, SU(3) matrix functions, notes of openQCD).
+Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
+where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. Its coefficients
+depend only on p and q. They are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q I.
+This method has no divisions, and is also accurate for equal eigenvalues (M. Luescher, SU(3) matrix functions,
+notes of openQCD).
 
-Before this, H is divided by 2^s, so that the bound 2 (p/3)^(1/2) of its eigenvalues is small. Afterwards the
-result is squared s times. The squares are computed as products of matrices.
+The Taylor polynomial is evaluated for H/2^s. The number s is chosen so that the bound 2 (p/3)^(1/2) of the
+eigenvalues of H/2^s is small. Afterwards the result is squared s times. The squares are computed as products
+of matrices.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
@@ -32,8 +34,8 @@ T = TypeVar("T")
 
 ROWS, COORDINATES = 3, 8
 SIZE = ROWS * ROWS
-"""The number of entries of the matrix exp X. The results of the function are the real parts of all entries,
-followed by the imaginary parts.
+"""The number of entries of the matrix exp X. The results of :class:`SpecialUnitaryExponential` are the real
+parts of all entries, followed by the imaginary parts.
 """
 
 PLACES = ((0, 1), (0, 2), (1, 2))
@@ -46,7 +48,7 @@ digits or for power series.
 
 
 def most_squarings(bits: int) -> int:
-    """Return the largest number of squarings after which at least three decimal digits are correct.
+    """Return the largest s for which s squarings of exp(X/2^s) give at least three correct decimal digits.
 
     If the unit roundoff is 2^-``bits``, the relative error after s squarings is at most 2^(s - ``bits`` + 6).
 
@@ -74,7 +76,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments. There is one array, which contains the coordinates of X."""
+        """The lengths of the argument arrays. The only argument array contains the coordinates of X."""
         return (COORDINATES,)
 
     @property
@@ -124,8 +126,8 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
-        # The complex entry a + i b is stored in four places: a in both blocks A, and b and -b in the blocks B
-        # and -B.
+        # Both blocks A contain ``real``, the block B contains ``imaginary``, and the block -B contains
+        # ``-imaginary``.
         result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
         result[width * (ROWS + i) + j] = imaginary
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
@@ -141,8 +143,9 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
-    """Return the entries of A, then the entries of B, for a real matrix with the block rows (A, -B) and
-    (B, A).
+    """Return the entries of A, then the entries of B.
+
+    The argument is the real matrix with the block rows (A, -B) and (B, A).
     """
     width = 2 * ROWS
     # The left half of the matrix contains A above B.
@@ -158,20 +161,20 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
         total = _square(total)
-    # The test is true if the norm is still too large after the last halving. It is also true for a NaN.
+    # The test is true if the bound ``norm`` is still too large after the last halving. Because of the
+    # ``not``, it is also true if ``norm`` is a NaN.
     if not norm <= largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return 2 (p/3)^(1/2), where p = tr(H^2)/2. This is a bound of the absolute values of the eigenvalues of
-    H.
+    """Return a bound of the absolute values of the eigenvalues of H.
 
-    ``x`` are the coordinates of the matrix i H.
+    The bound is 2 (p/3)^(1/2), where p = tr(H^2)/2. ``x`` are the coordinates of the matrix i H.
     """
-    # The eigenvalues of H are real solutions of x^3 = p x + q. If all three solutions are real, their
-    # absolute values are at most (4 p/3)^(1/2).
+    # The three eigenvalues of H are real, and satisfy x^3 = p x + q. By the trigonometric formula for the
+    # solutions, they are products of 2 (p/3)^(1/2) and a cosine.
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
@@ -202,11 +205,11 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # The determinant contains H_12 H_23 H_31 and its complex conjugate. Their sum is twice the real part
-    # ``product``.
+    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate. Both have the real part
+    # ``product``, so their sum is twice ``product``.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # Let d_j be the diagonal entries of H. All other terms of the determinant are d_1 d_2 d_3 - d_1 |H_23|^2
-    # - d_2 |H_13|^2 - d_3 |H_12|^2.
+    # Let d_j be the diagonal entries of H. The sum of the other four terms of the determinant is
+    # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 
@@ -233,11 +236,10 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-    """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2).
+    """Return the matrix (u_0 I + u_1 H + u_2 H^2) + i (v_0 I + v_1 H + v_2 H^2), where I is the unit matrix.
 
     The result contains the real parts of all entries, then the imaginary parts. ``x`` are the coordinates of
-    the matrix i H, and ``square`` is H^2 in the form of :func:`square_of_hermitian`. All u_k and v_k are
-    real.
+    the matrix i H, and ``square`` is the result of :func:`square_of_hermitian`. All u_k and v_k are real.
     """
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
@@ -245,11 +247,11 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # p + i q is the entry (j, k) of u_0 + u_1 H + u_2 H^2. r + i s is the entry (j, k) of v_0 + v_1 H +
-        # v_2 H^2. Both matrices are Hermitian.
+        # Let p + i q be the entry (j, k) of u_0 I + u_1 H + u_2 H^2. Let r + i s be the entry (j, k) of
+        # v_0 I + v_1 H + v_2 H^2.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # The entries (k, j) of these matrices are p - i q and r - i s.
+        # Both matrices are Hermitian, so their entries (k, j) are p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
@@ -264,24 +266,26 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
-    # The first list contains the real parts of the coefficients of 1, H and H^2. The second list contains the
-    # imaginary parts. Horner's rule begins with the coefficient of (i H)^(4 g), which is real, because i^(4
-    # g) = 1.
+    # ``parts[0]`` contains the real parts of the coefficients of I, H and H^2. ``parts[1]`` contains the
+    # imaginary parts. Horner's rule begins with the coefficient of the highest power of H. The exponent of
+    # this power is a multiple of 4, so the coefficient is real.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # The term of degree 4 g + k contains i^k, which is 1, i, -1, -i for k = 0, 1, 2, 3.
+            # The term of degree 4 * ``group`` + k has the factor i^k. It is 1, i, -1, -i for k = 0, 1, 2, 3.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term
-                # Because of H^3 = p H + q, H times a + b H + c H^2 is q c + (a + p c) H + b H^2.
+                # Because of H^3 = p H + q I, the product of H and a I + b H + c H^2 is
+                # q c I + (a + p c) H + b H^2.
                 part[:] = signed + q * part[2], part[0] + p * part[2], part[1]
     return combined(y, square_of_hermitian(y), *parts)
 
 
 def _square(g: list[float]) -> list[float]:
-    """Return the square of a complex matrix. The real parts of all entries come first, then the imaginary
-    parts.
+    """Return the square of the complex matrix ``g``.
+
+    Both ``g`` and the result contain the real parts of all entries, then the imaginary parts.
     """
     result = [0.0] * (2 * SIZE)
     for i in range(ROWS):

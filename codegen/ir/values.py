@@ -11,7 +11,8 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The Lie algebra and its dual are different kinds, because Ad acts on the algebra and Ad* on its dual.
+# The Lie algebra and its dual are different kinds, because different operations apply to them, such as Ad and
+# Ad*.
 class Kind(StrEnum):
     """The space that contains a value.
 
@@ -66,7 +67,8 @@ class Coefficient:
         doubles or power series).
         """
         value = domain.number(self.value)
-        # The result h^p c is one scalar. Terms with equal coefficients can share it.
+        # ``value`` and the power of h are multiplied first, so that terms with equal coefficients can share
+        # this product.
         for _ in range(self.power):
             value = domain.h * value
         return value

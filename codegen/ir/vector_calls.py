@@ -58,7 +58,7 @@ def vector_function(name: str) -> VectorFunction | None:
 
 
 def named(name: str) -> VectorFunction:
-    """Return the vector function called ``name``. ValueError is raised if there is none with this name."""
+    """Return the vector function called ``name``. ValueError is raised if there is no such function."""
     function = vector_function(name)
     if function is None:
         raise ValueError(f"unknown vector function {name}")

@@ -35,7 +35,7 @@ class VectorFunction(ABC):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The number of scalars in each array of arguments."""
+        """The lengths of the argument arrays."""
         # The default is one array with ``size`` entries, as in a function that maps an n x n matrix to an
         # n x n matrix.
         return (self.size,)
@@ -75,7 +75,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for mpmath numbers. ``context`` is their mpmath context, and ``digits`` is its
+        """Return the results for mpmath numbers. ``context`` is the mpmath context, and ``digits`` is the
         number of decimal digits.
         """
 

@@ -35,8 +35,8 @@ class _Verifier:
 
     def run(self) -> None:
         """Check the whole program. :class:`IllFormed` is raised for the first broken rule."""
-        # The order of these checks is the order of execution. ``self.defined`` therefore contains exactly the
-        # variables that have values at this point.
+        # The statements are checked in the order of execution. Before each statement, ``self.defined``
+        # contains exactly the variables that already have values.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -47,14 +47,15 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The coefficients of a continuous extension (dense output) are no part of the new state, so no
-            # input has their names.
+            # Each output is the new value of an input. Only the coefficients of a continuous extension (dense
+            # output) belong to no input, so they are skipped.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
             # The embedded solution is an approximation of the new state y, so its kind must be the kind of y.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
-                    f"{self.program.name}: no input of kind {var.kind} corresponds to the output {name}"
+                    f"{self.program.name}: the output {name} has the kind {var.kind}, but the corresponding "
+                    "input is missing or has another kind"
                 )
 
     def define(self, var: Var, at: str | Assign) -> None:
@@ -68,36 +69,36 @@ class _Verifier:
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise :class:`IllFormed` if ``var`` has no value yet. The statement ``at`` reads this variable."""
+        """Raise :class:`IllFormed` if ``var`` has no value yet. ``at`` is the statement that reads it."""
         if var not in self.defined:
-            what = f"{var.name}: {var.kind} is used before it is defined"
+            what = f"the variable {var.name} of kind {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
 
     def assign(self, assign: Assign) -> None:
-        """Check one assignment: the arguments must have values, the kinds must fit, and the targets must
-        be new.
+        """Check one assignment: the arguments must have values, the operation must accept the kinds, and the
+        targets must not have values yet.
         """
         for arg in assign.args:
             self.use(arg, assign)
-        # The targets are defined after the check of the arguments, because an assignment cannot read its own
-        # result.
+        # The targets are defined last, so that an assignment that reads its own result is rejected.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # Entry k of ``starts`` and entry k of ``images`` belong to unknown k, so the kinds must agree.
+        # Each unknown u_k of the system u = g(u) must have one start (its first value) and one image g_k(u)
+        # of the same kind.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The unknowns are defined after the check of the starts, because a first value must be known before
-        # the block and cannot be an unknown of the block.
+        # The unknowns are defined after the check of the starts, so that an unknown of the block is rejected
+        # as a start.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
             self.assign(assign)
-        # The images and the residuals are checked last, because the body assigns them.
+        # The images and the residuals are checked after the body, because the body assigns them.
         for image in block.images:
             self.use(image, f"the images of {block.label}")
         for residual in block.residuals:
@@ -113,7 +114,7 @@ def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(
-            f"{name}: {block.label} has no unknowns, or the kinds of its unknowns, starts and images differ"
+            f"{name}: {block.label} needs unknowns, and one start and one image of equal kind for each"
         )
     if block.residuals and len(block.residuals) != len(block.unknowns):
         raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
@@ -122,4 +123,4 @@ def _shape(name: str, block: Solve) -> None:
 def _types(name: str, assign: Assign) -> None:
     arguments, results = tuple(a.kind for a in assign.args), tuple(t.kind for t in assign.targets)
     if not assign.operation.accepts(arguments, results):
-        raise IllFormed(f"{name}: wrong types of arguments or results in {assign.text()}")
+        raise IllFormed(f"{name}: wrong kinds of arguments or results in {assign.text()}")
