@@ -54,7 +54,7 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """The result of an adaptive run, or of a run to an end time.
+    """The result of :meth:`Integrator.adaptive` or :meth:`Integrator.integrate`.
 
     ``state`` is the last state, ``t`` is its time, and ``h`` is the proposed size of the next step.
     ``accepted`` and ``rejected`` are the numbers of accepted and of rejected steps.
@@ -106,8 +106,9 @@ class Statistics:
     """Counts of the iterations of a run. A block is a system of equations that each step solves by iteration.
 
     - ``sweeps``: for each block, the number of iterations in the whole run.
-    - ``most``: the largest number of iterations of a block in one step.
-    - ``failed``: the index of the block that failed, counted from 1, or 0 if no block failed.
+    - ``most``: the largest number of iterations that one block needed in one step.
+    - ``failed``: the number of the block that could not be solved. The first block has the number 1. If all
+      blocks were solved, ``failed`` is 0.
     - ``matrices``: the number of Newton matrices that were computed.
     """
 
@@ -150,8 +151,8 @@ class Begun:
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
-    The result contains the final states of all systems, and the sums of the numbers of steps. Its t and h are
-    those of the last system.
+    The result contains the final states of all systems, and the sums of the numbers of steps. The time ``t``
+    and the step size ``h`` in the result belong to the last system.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

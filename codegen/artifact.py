@@ -69,8 +69,9 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace a module of another scene or method.
 
-        ``entry`` is a manifest entry of the folder. It is replaced if it has the name and the target of this
-        module. No error is raised if the user chose the name of one of the two modules with ``--prefix``.
+        ``entry`` is the manifest entry of a module in the folder. This module replaces that module if both
+        have the same name and the same target. No error is raised if the user chose the name of one of the
+        two modules with ``--prefix``.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))

@@ -49,7 +49,11 @@ class CompileError(InputError):
 
 @dataclass(frozen=True)
 class Compiler:
-    """A C compiler: the words of its command, and the first line that the option ``--version`` prints."""
+    """A C compiler.
+
+    ``command`` contains the words of its command. ``version`` is the first line that the compiler prints for
+    the option ``--version``.
+    """
 
     command: tuple[str, ...]
     version: str
@@ -103,9 +107,9 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    A shared object in the cache is used if its content has the recorded digest. If ``again`` is true, the
-    files are always compiled. ``seconds`` is the time limit for the C compiler. Three errors may be raised:
-    CompilerMissing, CompileError, and InputError if the result cannot be written.
+    A shared object in the cache is used if its content agrees with the digest in the cache. If ``again`` is
+    true, the files are always compiled. ``seconds`` is the time limit for the C compiler. Three errors may be
+    raised: CompilerMissing, CompileError, and InputError if the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"

@@ -162,7 +162,7 @@ def _sweep(folder: Path) -> None:
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # a new folder may belong to a process that has not locked it yet
+                continue  # the process that created a new folder may not have locked it yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

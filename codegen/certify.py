@@ -34,8 +34,8 @@ class CertifiedOrder:
     - ``bound`` is true if no condition failed up to the largest examined order. In this case the method may
       have a higher order.
     - ``classical`` is the classical family to which the method reduces on an abelian group, otherwise ''.
-    - ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double,
-      otherwise ''. If ``radius`` is not empty, the certificate is "none".
+    - ``radius`` is '' if the uncertainty of the coefficients is at most the rounding error of a double.
+      Otherwise ``radius`` is this uncertainty, and the certificate is "none".
     """
 
     order: int
@@ -54,14 +54,16 @@ class CertifiedOrder:
             "ball": "interval arithmetic proves that a method of this order exists, and that its "
             "coefficients differ from the decimals of the tableau by at most one unit in the last digit",
             "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
-            "decimal": "the conditions hold up to the printed digits of the coefficients",
+            "decimal": "the conditions hold up to the rounding of the coefficients, which are decimals",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
         where = (
-            f", by the conditions of {self.classical}, because the group is abelian" if self.classical else ""
+            f"; the conditions are those of {self.classical}, because the group is abelian"
+            if self.classical
+            else ""
         )
         return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
 
@@ -84,8 +86,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     """Return the order of a method in its family.
 
     On an abelian group, the methods of some families reduce to classical methods. For these methods the
-    conditions of the classical family are tried first. MethodError is raised if the coefficients have too few
-    digits to determine the order.
+    result is the order in the classical family, if the digits of the coefficients determine this order.
+    MethodError is raised if the coefficients have too few digits to determine the order.
     """
     from orderconds.checking import check
 
@@ -122,7 +124,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
 
 
 def upwards(x: float) -> str:
-    """Return a positive number as text. The number is rounded up to two significant digits.
+    """Return a positive number as text, with two significant digits. The number is rounded upwards.
 
     >>> upwards(1.01e-16), upwards(2e-5)
     ('1.1e-16', '2.0e-05')

@@ -67,7 +67,7 @@ class CompiledIntegrator(Integrator):
             why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers and no negative tolerance, found {given}"
+                why = f"expected finite numbers and non-negative tolerances, found {given}"
             failed = begun.failed(status, accepted[0], final, why)
             failed.arrival = Arrival(
                 failed.state, t[0], h[0], accepted[0], rejected[0], None, (), failed.status
@@ -105,7 +105,7 @@ class CompiledIntegrator(Integrator):
             given = "t={}, end={}, h={}".format(*span)
             given += ", rtol={}, atol={}, least={}, greatest={}".format(*bounds) * interface.controlled
             bounded = "a positive tolerance, and 0 <= least <= greatest"
-            expected = bounded if interface.controlled else "a step size other than 0"
+            expected = bounded if interface.controlled else "and a step size other than 0"
             why = f"expected finite numbers, {expected}; found {given}"
         flat = self._ffi.unpack(rows, written[0] * size) if written[0] else []
         return Reached(
@@ -149,7 +149,7 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
+        """Yield two lists of arguments of a C call: for the run-time inputs, and for the iteration counts.
 
         C code calls the caller's function for the run-time inputs. If this function raises an error, the
         error is raised again at the end of the ``with`` block. If there was no error, the counts are added to
@@ -184,10 +184,10 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The arguments that a call of a C function needs for events.
+    """Creates the arguments for events in a call of a C function.
 
-    The arguments are a function that computes the values of all event functions, and the arrays into which
-    the C code writes the zeros that it finds.
+    The first argument is a function that computes the values of all event functions. Other arguments are
+    arrays into which the C code writes the zeros that it finds.
     """
 
     ROOM = 1024
@@ -208,7 +208,7 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The arguments of the C call that concern events."""
+        """The arguments for events in the C call."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 

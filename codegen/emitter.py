@@ -55,9 +55,9 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The cost of operations in units of an addition, by which the compiler compares two versions of a step.
+"""The costs of operations, where an addition or a product costs 1. Functions that are not listed cost 12.
 
-Additions and products cost 1. Functions that are not listed cost 12.
+The compiler compares the costs of two versions of a step.
 """
 
 
@@ -65,7 +65,7 @@ Additions and products cost 1. Functions that are not listed cost 12.
 class Optimised:
     """The optimised step program of a method on a scene.
 
-    - ``problem`` is the scene in the form that the family of the method requires.
+    - ``problem`` is the problem of the scene, rewritten for the family of the method.
     - ``lowered`` is the step program before the first compiler pass.
     - ``program`` is the step program after the last pass.
     - ``trace`` contains a report of each pass.
@@ -99,7 +99,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene, without a kernel.
 
-    Only the translation to a kernel needs closed forms of the operations of the group.
+    The group may have operations without closed forms, because only a kernel needs closed forms.
     """
     scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
@@ -123,7 +123,7 @@ def compile_method(
 ) -> Compiled:
     """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
-    - ``scene``, ``method``: objects or names. ``family``: the family for a tableau.
+    - ``scene``, ``method``: objects or names. ``family``: the family, if ``method`` is a tableau.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
       not listed are constants.
     - ``inputs``: signals that become run-time inputs.
@@ -181,7 +181,7 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method with the requested features.
+    """Add requested features to a compiled method, and return the result.
 
     The possible features are compensated summation, the derivative of a step, and a run to a given end time.
     """
@@ -232,7 +232,7 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method on a scene whose field is given by formulas with large matrices as operands.
+    """Return a compiled method on a scene whose formulas contain large matrices.
 
     MethodError is raised for an option that such a scene does not support.
     """
@@ -246,8 +246,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     given = next((option for option, is_given in options.items() if is_given), None)
     if given is not None:
         raise MethodError(
-            f"{given} is not available for {method.label} on a scene whose field is given by formulas whose "
-            "operands are large matrices",
+            f"{given} is not available for {method.label} on a scene whose formulas contain large matrices",
             where=scene.name,
             expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
             hint=f"leave out {given}; the emitted run makes steps of equal size",
@@ -290,9 +289,9 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Return an estimate of the cost of a step in units of one addition.
+    """Return an estimate of the cost of a step. An addition costs 1 (:data:`WEIGHTS`).
 
-    The operations of an iteration are counted :data:`SWEEPS` times, all other operations once.
+    The operations of an iteration are counted :data:`SWEEPS` times. All other operations are counted once.
     """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
@@ -333,9 +332,9 @@ def emit(
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
     output at given times. With ``adaptive``, this run also has bounds on step sizes. ``events`` is the number
     of event functions of this run. ``dense`` uses the continuous extension of the tableau at output times.
-    ``compensate`` extends the state by the rounding errors of compensated summation, which are zero
-    initially. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError
-    for a prefix that is not a valid name in C.
+    ``compensate`` extends the state by the rounding errors of compensated summation. These errors are zero
+    in the initial state. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and
+    InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -375,7 +374,7 @@ def emit_compiled(
     """Return a compiled method as a module in a target language.
 
     The header shows the command that emits the module. ``named`` contains the names of scene and method in
-    this command. ``order`` is the result of :func:`certified_order`, if the caller has already computed it.
+    this command. ``order`` is the result of :func:`certified_order`. If ``order`` is None, it is computed.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -423,7 +422,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A parameter that is listed both with and without a value is a run-time argument with this default value.
+    # A parameter may be listed twice, without a value and with a value. It is then a run-time argument, and
+    # the value is its default value.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

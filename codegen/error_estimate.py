@@ -27,12 +27,16 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The local error of the shortest step is about 10^-SMALLEST."""
+"""For the smaller step size h, the power h^(order + 2) is 10^-SMALLEST.
+
+The unit of h is the length of the time interval of the scene. ``order`` is the order of the method.
+"""
 
 ROUNDING = 1e-90
-"""A bound of the rounding errors of two steps with DIGITS digits, relative to the largest component.
+"""A bound of the relative rounding errors of two steps that are computed with DIGITS digits.
 
-Two results count as equal if they differ by less than this bound.
+Two states count as equal if their largest difference is at most ROUNDING times max(1, m). Here m is the
+largest absolute value in the first state.
 """
 
 RATIO = 8
@@ -45,7 +49,7 @@ State = tuple[Scalar, ...]
 
 
 def order_of_estimate(method: Method, scene: Problem) -> int:
-    """Return the power of the step size h in the error estimate of an adaptive method.
+    """Return the exponent p of an adaptive method whose error estimate is O(h^p) for the step size h.
 
     :class:`MethodError` is raised if there is no embedded method, or if the estimate has a higher order than
     the local error on this scene.
@@ -58,7 +62,7 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     # embedded method may give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
-            f"no error estimate for {method.label}: if the field does not depend on the state, the method "
+            f"no error estimate for {method.label}: the field does not depend on the state, so the method "
             "and its embedded method give the same result or the same leading error",
             where=scene.name,
             expected="an embedded method whose result on y' = A(t).y differs from the method's result",
@@ -76,10 +80,11 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 
 
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
-    """Return True if the error estimate of a method and its embedded method is blind.
+    """Return True if the error estimate of a method is blind.
 
-    A blind estimate has a higher order than the local error, or is always zero. ``order`` is the order of the
-    method. If the test steps cannot be computed, the result is False.
+    The estimate is the difference between a step of ``method`` and a step of ``embedded``. It is blind if it
+    is always zero, or if it has a higher order than the local error. ``order`` is the order of ``method``.
+    Very short steps are computed to measure both orders. If such a step fails, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -104,8 +109,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The arguments of the function are a state, the time since the start of the span, and the step size.
     """
-    # ``blocks.run`` finds the explicit stages, which are then computed only once. In the original program all
-    # stages are unknowns of a fixed-point iteration.
+    # In the program that ``lower`` returns, all stages are unknowns of an iteration. ``blocks.run`` changes
+    # explicit stages to assignments, so that each of them is computed only once.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -123,7 +128,10 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
 
 def _gap(a: State, b: State) -> Scalar:
-    """Return the largest difference of two states, or 0 if the states agree up to rounding."""
+    """Return the largest difference between corresponding numbers of two states.
+
+    The result is 0 if the difference is not larger than the rounding errors (:data:`ROUNDING`).
+    """
     largest = max(abs(x - y).mid() for x, y in zip(a, b, strict=True))
     return largest if largest > ROUNDING * max(1, *(abs(x).mid() for x in a)) else 0
 
@@ -133,11 +141,11 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for a user whose error estimate has a higher order than the local error.
+    """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    Such an estimate is called blind. The cut-off of a method is the number of brackets in the series of
-    dexp^{-1}. The hint recommends the next larger cut-off for which the estimate is not blind. If there is no
-    such cut-off, the hint recommends another tableau.
+    The cut-off of a method is the number of brackets in the series of dexp^{-1}. With a larger cut-off, the
+    estimate may not be blind. The hint recommends the smallest such cut-off. If there is none, the hint
+    recommends another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -23,8 +23,8 @@ change from positive to negative.
 class Event:
     """An event: the zeros of a function g(t, y).
 
-    ``direction`` is RISING (1) or FALLING (-1) if only zeros of this direction are events, and 0 otherwise.
-    A ``terminal`` event ends the run.
+    ``direction`` says which zeros are events: RISING (1), FALLING (-1), or 0 for both directions. A
+    ``terminal`` event ends the run.
     """
 
     function: EventFunction
@@ -52,10 +52,11 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return a list of functions and events as events. A function becomes an event that does not end the run.
+    """Return the events in the list ``given``, which contains events and functions.
 
-    ``most`` is the number of events that the emitted module accepts. ValueError is raised for more events, or
-    for a direction other than 1, -1 and 0. TypeError is raised for other objects.
+    A function becomes an event that does not end the run. ``most`` is the number of events that the emitted
+    module accepts. ValueError is raised for more events, or for a direction other than 1, -1 and 0. TypeError
+    is raised if ``given`` is not a sequence, or if an entry is neither an event nor a function.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops
     0
@@ -65,7 +66,7 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
     """
     if not isinstance(given, Sequence):
         raise TypeError(
-            f"expected a list of functions, or of Event objects, for events, found {described(given)}"
+            f"expected a list of functions or Event objects for the argument events, found {described(given)}"
         )
     if len(given) > most:
         raise ValueError(
@@ -97,7 +98,9 @@ class EventValues:
         """Return the values of all event functions at the time t for a flat state."""
         try:
             form = self.restore(list(state))
-            values = [real(event.function(t, form), "the value of an event") for event in self.events]
+            values = [
+                real(event.function(t, form), "the value of an event function") for event in self.events
+            ]
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)

@@ -28,22 +28,20 @@ SINGLE_IS = (
     "single: exact constants are rounded to single precision, and implicit stages converge to this precision"
 )
 
-NOT_SMOOTH = "the order holds for a step if the field is smooth along the whole step"
+NOT_SMOOTH = "a step has this order if the field is smooth along the whole step"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
-COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header of a module in single precision. The numbers of sweeps (iterations) in the header
-were measured in double precision.
-"""
+COUNTED = "; the numbers of sweeps in the lines 'solved by' are for double precision"
+"""A remark in the header of a module in single precision. A sweep is one iteration for implicit equations."""
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
-    """Return the content of the header of a module, with the example of its use."""
+    """Return the content of a module's header, and the data for the usage example in the header."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # The line ``digits`` is about rounded coefficients. A method without a tableau has no coefficients.
+    # The header line ``digits`` is about rounded coefficients. Methods without a tableau have none.
     tableau = method.coefficients is not None
     carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
@@ -78,11 +76,14 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
 
 
 def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
-    """Return the line of the header about the continuous extension, if the module has one."""
+    """Return the header line about the continuous extension.
+
+    There is no such line if the module does not use a continuous extension.
+    """
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()
-    text = f"the continuous extension of the tableau has order {extension.order} and gives output inside"
+    text = f"the continuous extension of the tableau has order {extension.order} and gives states inside"
     return (("output", f"{text} steps; its weights are polynomials of degree {extension.degree}"),)
 
 
@@ -93,7 +94,7 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; each site also stores two more copies of its state, because neighbours read it"
+        text = f"{text}; each site also stores two more states, so that neighbours can read the old state"
     return (("storage", text),) if text else ()
 
 
@@ -110,7 +111,7 @@ def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
 
 
 def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the lines of the header about the scene, and about the form of its equations."""
+    """Return the header lines about the scene and about the form of its equations."""
     form = compiled.form
     chosen = features(compiled.scene.roots)
     smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
@@ -125,12 +126,12 @@ def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the header lines about a lattice, and about the loops and the memory of a step on it."""
+    """Return the header lines about the sites of a lattice, and about the loops and the memory of a step."""
     step, sites = compiled.kernel.sites, compiled.scene.sites
     if step is None or sites is None:
         return ()
     *_, workspace, traffic = step.explanation()
-    loops = f"{len(step.sweeps)} loops over all sites in a step; {workspace}; {traffic}"
+    loops = f"a step has {len(step.sweeps)} loops over all sites; {workspace}; {traffic}"
     return (("sites", sites.text()), ("loops", loops))
 
 
@@ -147,16 +148,16 @@ def steps_of(kernel: Kernel) -> str:
     """Return the text of the header line that says how a run chooses its step sizes."""
     if kernel.expansion is not None:
         last = kernel.expansion.degree
-        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
+        return f"constant, or chosen from the Taylor coefficients of the degrees {last - 1} and {last}"
     assert kernel.estimate is not None
     return (
-        f"constant, or chosen by a proportional-integral controller with an error estimate "
-        f"of order O(h^{kernel.estimate.order}) by the embedded method"
+        f"constant, or chosen by a proportional-integral controller; "
+        f"the embedded method gives an error estimate O(h^{kernel.estimate.order})"
     )
 
 
 def substeps_of(kernel: Kernel) -> str:
-    """Return the text of the header line about the substeps of which a step consists."""
+    """Return the text of the header line about the substeps of a step."""
     each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
     return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
 
@@ -170,7 +171,7 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
         lines.append(f"arguments for constant parameters: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs for signals that have formulas: {', '.join(closed)}")
+        lines.append(f"run-time inputs for {', '.join(closed)}: the scene contains formulas instead")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):

@@ -33,8 +33,8 @@ from codegen.state_form import Fields, State, batch_of, read
 class Integrator(RunToEnd):
     """An emitted module that is loaded into Python.
 
-    ``interface`` lists the arguments of the functions of the module. ``defaults`` contains the values that
-    the scene gives to the parameters.
+    ``interface`` describes the functions of the module and their arguments. ``defaults`` contains the values
+    of the parameters in the scene.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
@@ -45,7 +45,7 @@ class Integrator(RunToEnd):
     def fields(self) -> Fields:
         """The name and the size of each part of a state, such as q and mu.
 
-        If a state is given as a tuple, its entries are the parts in this order. The result is empty if the
+        A state may be given as a tuple of these parts, in the same order. The result is empty if the
         integrator was not loaded from emitted files.
         """
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
@@ -146,7 +146,7 @@ class Integrator(RunToEnd):
 
         If a monotone sequence of times is given as ``t_eval``, the result is a list of the states at these
         times. ``t`` is the time of the initial state. Between two successive times all steps have the same
-        size, with an absolute value of at most abs(h).
+        size. The absolute value of this size is at most abs(h).
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -166,14 +166,15 @@ class Integrator(RunToEnd):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at ``times``.
 
-        Between two successive times all steps have the same size, with an absolute value of at most abs(h).
+        Between two successive times all steps have the same size. The absolute value of this size is at most
+        abs(h).
         """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # The factor 1 - 1e-12 prevents an additional step if rounding makes an integer quotient slightly
-            # larger.
+            # If the exact quotient is an integer, the rounded quotient may be slightly larger. The factor
+            # 1 - 1e-12 prevents an additional step in this case.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -260,8 +261,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If the run to ``time`` was a single short step, the proposed size ``arrival.h`` is too small.
-            # Then the next run begins with the larger of ``h`` and ``arrival.h``.
+            # If ``time`` was reached in one step, this step may have been shortened to end at ``time``. The
+            # proposed size ``arrival.h`` may then be too small, so a larger size ``h`` is kept.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -281,10 +282,10 @@ class Integrator(RunToEnd):
     ) -> BatchRun:
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
-        - ``states`` has shape (N, size), or is a tuple of such arrays for the parts of a state.
+        - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
         - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
-        - ``out`` is an array of shape (N, size) in Fortran order that receives the result. If ``out`` is the
-          array ``states`` itself, no state is copied.
+        - ``out`` is an array of shape (N, size) in Fortran order. The result is written into this array. If
+          ``out`` is the array ``states`` itself, no state is copied.
         - A parameter is a number, or an array of N numbers.
 
         If a step of a system fails, no error is raised. The result contains the status of each system
@@ -317,7 +318,8 @@ class Integrator(RunToEnd):
     def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
         """Replace the states in ``table`` by the new states of all systems.
 
-        Return the status of each system, and its number of completed steps. ``moment`` is (t, h, steps).
+        Return two arrays: the status of each system, and the number of completed steps of each system.
+        ``moment`` contains the time t, the step size h, and the number of steps.
         """
         import numpy as np
 
@@ -368,7 +370,8 @@ class Integrator(RunToEnd):
     ) -> Begun:
         """Check the arguments of a run and return them.
 
-        TypeError is raised for wrong names or inputs, and ValueError is raised for a wrong state.
+        TypeError is raised for an unknown parameter, and for wrong ``inputs`` or ``statistics``. ValueError
+        is raised for a wrong state.
         """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
@@ -377,7 +380,7 @@ class Integrator(RunToEnd):
             raise TypeError(f"expected a function of time for the argument inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
             raise TypeError(
-                f"expected an object of the class Statistics for statistics, found {described(statistics)}"
+                f"expected a Statistics object for the argument statistics, found {described(statistics)}"
             )
         form, values = read(state, self.interface.size, self.fields)
         return Begun(

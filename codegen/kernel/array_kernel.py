@@ -41,15 +41,17 @@ from codegen.scene.matrix_field import MatrixField
 from codegen.scene.problem import TIME, Problem
 
 STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
-"""The names of the arrays in a step: the old state, the new state, the basis B, its Gram matrix B^T B, and
-the error estimate.
+"""The names of the arrays in a step.
+
+``STATE`` is the old state, ``NEW`` is the new state, and ``ERROR`` is the error estimate. ``BASIS`` is the
+basis B (:class:`_Builder`), and ``GRAM`` is its Gram matrix B^T B.
 """
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method that cannot be compiled for large matrices.
 
-    ``what`` says why, and ``expected`` says what is accepted instead.
+    ``what`` is the reason, and ``expected`` says what is accepted instead.
     """
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
@@ -86,7 +88,7 @@ def compiled(
     kernel: Callable[[Program, Problem], Kernel],
     refusal: Callable[[Problem, str, str], MethodError],
 ) -> ArrayMethod:
-    """Compile ``method`` for ``scene``. The compiler passes are verified on the small problem ``model``.
+    """Compile ``method`` for ``scene``. The small problem ``model`` is used to verify each compiler pass.
 
     The function ``kernel`` translates the program of a step to a kernel for ``scene``. If the method has
     implicit stages, the error that ``refusal`` returns is raised.
@@ -103,22 +105,20 @@ def compiled(
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small problem on the sphere for the verification of compiler passes. Its field has no
-    symmetries.
-    """
+    """Return a small problem on the sphere. It is used to verify the compiler passes."""
     from sympy import Matrix as Column
     from sympy import Rational, Symbol, symbols
 
     x, y, z = point = symbols("x y z", real=True)
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The three components have different formulas, so no pass can use a symmetry by chance.
+    # The field has no symmetry. With a symmetric field, a wrong pass might not change the results.
     field_on_sphere = Column([y * z + t / 2, x - z * Rational(1, 3), x * y + Rational(1, 5)])
     start = Column([1, 0, 0])
     return FieldScene(group=SO3(), action=Rotation(), y=point, f=field_on_sphere, y0=start, span=(0, 1))
 
 
 def array_kernel(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
+    """Return the kernel of an explicit program on a scene whose field is given by formulas with matrices.
 
     MethodError is raised for implicit stages, and for operations that have no formula for matrices of low
     rank.
@@ -129,8 +129,8 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     n, k = scene.matrices.rows, scene.matrices.columns
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
-    # ``Estimate`` gets no scalar expressions, because the statements of the step compute the error estimate
-    # as an array.
+    # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
+    # expressions. The number 0 is replaced later by the order of the estimate.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -174,7 +174,7 @@ class _Builder:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
             else:
-                # The displacement None represents the zero matrix: the old state is X_0 itself.
+                # The old state is X_0, so its displacement is zero. None represents the zero matrix.
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -184,7 +184,7 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
-        # The state is a single matrix, so the program has one output besides the embedded solution.
+        # The state is a single matrix. Thus the program has one output, apart from the embedded solution.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
@@ -194,8 +194,8 @@ class _Builder:
         # Without an embedded method, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the basis times the difference of two displacements. The difference of two points
-        # would lose digits.
+        # The estimate is the basis times the difference of the two displacements. Both points contain the
+        # summand X_0, so a difference of the points would lose digits.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -220,8 +220,8 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # Each group element is a single exponential exp(B S B^T), so its core S is enough to represent
-            # it.
+            # A group element is always the exponential of one element B S B^T of the algebra. Therefore the
+            # core S represents the group element.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -233,14 +233,17 @@ class _Builder:
                 raise refused(self.scene, what, "another method")
 
     def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:
-        """Append target = sum of c M over the pairs (c, M) in ``terms``, and return ``target``."""
+        """Append an assignment to ``target``, and return ``target``.
+
+        For the pairs (c_1, M_1), (c_2, M_2), ... in ``terms``, the value is c_1 M_1 + c_2 M_2 + ....
+        """
         self.body.append(Combination(target, tuple(Term(c, m) for c, m in terms)))
         return target
 
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
-        """Append target = X_0 + B D, or target = X_0 if ``displacement`` is None.
+        """Append the assignment of X_0 + B D to ``target``.
 
-        X_0 is the old state, B the basis, and D the ``displacement``.
+        X_0 is the old state, B is the basis, and D is the ``displacement``. None means D = 0.
         """
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
@@ -254,10 +257,11 @@ class _Builder:
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
             self.displaced(x, displacement)
-        # The value of the field is written into the next k columns ``w`` of the basis.
+        # ``w`` consists of the first k unused columns of the basis. The value of the field is written there.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
-        # The formulas of an autonomous field contain no time, so 0 may replace it.
+        # If the program has no time variable, the field does not depend on time. Any value can then be used
+        # for the time, for example 0.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
         # ``w`` contains the field V at the point X. The next statements change V to W = V - X (X^T V)/2.
@@ -266,7 +270,7 @@ class _Builder:
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
-        # The Gram matrix B^T B gets one more block column B^T W and one more block row.
+        # B now contains W as its last block. Therefore the Gram matrix B^T B gets the block column B^T W.
         known = self.basis.part(0, 0, n, first + k)
         self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
         # The Gram matrix is symmetric, so the new block row is the transpose of the new block column.
@@ -277,20 +281,21 @@ class _Builder:
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
         """Append the core S of the field at a point X, and return S.
 
-        The point is X = X_0 + B D. Here D is the ``displacement``, and None means D = 0. Let J be the
-        matrix whose columns are the first k unit vectors. Because X_0 = B J, the point is X = B C with
-        C = J + D. The core is S = E C^T - C E^T. The columns of E are the unit vectors with the indices
-        ``first``, ..., ``first`` + k - 1.
+        The point is X = X_0 + B D. Here D is the ``displacement``, and None means D = 0. The field at X is
+        the element W X^T - X W^T of the algebra. X_0 and W are blocks of k columns of the basis B. X_0 begins
+        with the column 0, and W begins with the column ``first``.
+
+        Hence X_0 = B J and W = B E, where the columns of J and E are unit vectors. With C = J + D, the point
+        is X = B C, and the core is S = E C^T - C E^T.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # At the end, the unit matrix is added to the block ``below`` of the core, and subtracted from the
-        # block ``right``.
+        # S is the sum of E J^T - J E^T and E D^T - D E^T. In the first summand, the block ``below`` of the
+        # core is the unit matrix, and the block ``right`` is minus the unit matrix.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # In S = E C^T - C E^T, the term E C^T fills k rows and C E^T fills k columns. The next statements
-            # insert the part D of C.
+            # E D^T fills k rows of the core, and -D E^T fills k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -298,10 +303,10 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` with the time ``t`` and the values of the parameters inserted."""
+        """Return ``statement`` after the time is replaced by ``t``, and the parameters by their values."""
         values = {**self.scene.scalars(self.domain, t)}
-        # ROW and COLUMN remain symbols, because the formula of an entry is evaluated in a loop over the
-        # matrix.
+        # The formula of a matrix entry contains the symbols ROW and COLUMN for the indices of the entry. They
+        # are not replaced, because emitted loops over the matrix evaluate the formula.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -316,7 +321,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # A tuple contains the entries as numbers, so it has no symbols to replace.
+                    # If the entries are given as a tuple of numbers, there are no symbols to replace.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
@@ -327,21 +332,23 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of cores, and return the core of the result.
+        """Append the computation of a linear combination of cores, and return the result.
 
         A core S represents the element B S B^T of the algebra. The result has the size of the largest core.
         """
-        # Zeros extend a small core to a larger core that represents the same element.
+        # Smaller cores are extended by zeros. They then still represent the same elements.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the bracket of the elements B x B^T and B y B^T of the algebra, and return its core S.
+        """Append the computation of a bracket of two elements of the algebra, and return its core S.
 
-        With the Gram matrix G = B^T B and N = x G y, the core is S = N - N^T.
+        The elements are B x B^T and B y B^T with the basis B and the cores ``x`` and ``y``. With the Gram
+        matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        # Both products in N = x (G y) are products of small matrices, whose sizes do not depend on n.
+        # The products in N = x (G y) contain only small matrices. Their sizes do not depend on the number of
+        # rows of the state.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -351,9 +358,10 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append the series of dexp^{-1}_x y, and return the core of the result.
+        """Append the computation of dexp^{-1}_x y by its series, and return the core of the result.
 
-        The series ends with the term that contains ``order`` nested brackets.
+        ``x`` and ``y`` are the cores of two elements of the algebra. The terms of the series contain at most
+        ``order`` nested brackets.
         """
         terms, power = [(self.one, y)], y
         # dexp^{-1}_x y is the sum of B_k/k! ad_x^k y over k, with the Bernoulli numbers B_k. ``power``
@@ -367,11 +375,11 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append exp(B S B^T) (X_0 + B D), and return the displacement of the new point.
+        """Append the computation of the point exp(B S B^T) X, and return its displacement.
 
-        Here S is the ``core`` and D is the displacement ``start``, or zero if ``start`` is None.
+        B is the basis, and S is the ``core``. The point X has the displacement ``start``, where None means
+        zero.
         """
-        # The number of rows is the maximum of the rows of the core and of the old displacement.
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

@@ -183,7 +183,7 @@ def test_every_form_of_the_same_numbers_gives_the_same_result(target: str, state
         ((START, 0.1, -1), "expected steps to be at least 0, found -1"),
         ((START, 0.1, 10**30), "expected steps to be at most"),
         ((START, 0.1, 1, "0"), "expected a real number for t"),
-        ((START, 0.1, 1, 0.0, 3), "expected an object of the class Statistics for statistics"),
+        ((START, 0.1, 1, 0.0, 3), "expected a Statistics object for the argument statistics"),
     ],
 )
 def test_wrong_arguments_of_a_run_have_a_message(target: str, arguments: Any, message: str) -> None:
