@@ -22,19 +22,20 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The name of the symbol for the duration of the last flow of a step in a splitting method. Between two steps
-of a run, the last flow of one step and the first flow of the next step are joined to one flow. The name
-contains a dot, so it differs from every name that a user can choose.
+"""The name of a symbol in the steps of splitting methods: the duration of the last flow of a step. Between
+two steps of a run, the last flow of one step and the first flow of the next step are joined to one flow. The
+name contains a dot, so it differs from every name that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of the symbol for the total duration of successive steps. Some flows of a splitting method are
-applied only once for all of these steps (:class:`Deferred`).
+"""The name of a symbol in splitting methods: the total duration of successive steps. The symbol is used in
+flows that are applied only once for all of these steps (:class:`Deferred`).
 """
 
 LONGEST = 256
-"""The largest number of successive steps that share one application of a flow (:class:`Deferred`). The angles
-of this flow are proportional to the number of steps, and so are the rounding errors of the angles.
+"""The largest number of successive steps for which a flow is applied only once (:class:`Deferred`). The
+angles in this flow are proportional to the number of steps. Their rounding errors grow in the same
+proportion.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
@@ -61,7 +62,7 @@ to the initial state in one direction.
 """
 
 VARIED = "the variation of "
-"""The prefix of the labels of loops that solve the equations of a variation."""
+"""If a loop solves equations for a variation, its label begins with this text."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +82,8 @@ class Newton:
       each step. If ``leading`` is false, the matrix is reused in later sweeps and steps
       (:mod:`codegen.run.sweeps`).
     - ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals`` is true if the images of the loop are residuals r(u), and the equations are r(u) = 0. The
-      matrix is then -r'(u), expanded to first order in h. Its inverse is used for :attr:`period` steps.
+    - ``residuals`` is true if the loop solves equations r(u) = 0. Its ``images`` are then the residuals r(u),
+      and the matrix is -r'(u), expanded to first order in h. The inverse is used for :attr:`period` steps.
     - ``changes`` are the names of the variables with the last changes of the unknowns.
     """
 
@@ -93,7 +94,8 @@ class Newton:
     residuals: bool = False
     changes: tuple[str, ...] = ()
 
-    # If a sweep reduces the change by less than a factor of 2^6, the matrix is computed again.
+    # The matrix is computed again if the change of the unknowns in a sweep exceeds CONTRACTION times the
+    # change in the previous sweep.
     CONTRACTION: ClassVar[float] = 2.0**-6
 
     @property
@@ -123,13 +125,13 @@ class Loop:
     sweep is added to the unknowns only if ``newton`` is given.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses these numbers:
-    - ``tolerance``: the loop ends if the change is below ``tolerance`` times the largest unknown, and no
-      longer decreases.
-    - ``close``: the loop ends if the change is below ``close`` times the largest unknown, and the rate of
-      convergence predicts a small error.
+    - ``tolerance``: a loop whose change no longer decreases ends if the change is below ``tolerance`` times
+      the largest unknown.
+    - ``close``: a loop whose rate of convergence predicts a small error ends if the change is below ``close``
+      times the largest unknown.
     - ``limit`` is the largest number of sweeps.
-    - ``only_unknowns_read`` is true if no values of ``body`` are used after the loop. The loop may then end
-      at a larger change.
+    - ``only_unknowns_read`` is true if the code after the loop uses only the unknowns, and no values of
+      ``body``. The loop may then end at a larger change.
     """
 
     label: str
@@ -155,20 +157,20 @@ class Loop:
         """A bound of the change of the unknowns, divided by the largest unknown.
 
         If the change is below this bound and a small error is predicted, the loop ends (see :class:`Loop`).
-        Statements after the loop may use values of ``body``, which were computed before the last change of
-        the unknowns. The error of these values is about h L times this change. Here h L is the Lipschitz
+        Statements after the loop may use values of ``body``. These values were computed before the last
+        change of the unknowns, so their error is about h L times this change. Here h L is the Lipschitz
         constant of the images g(u).
 
-        In each sweep, simplified Newton multiplies the change by about (h L)^2. It converges only if this
-        factor is small. Hence h L is small when the loop ends.
+        With simplified Newton, each sweep multiplies the change by about (h L)^2. The loop converges only if
+        this factor is small. Hence h L is small when the loop ends.
         """
-        # No value of ``body`` is used after the loop, so only the error of the unknowns matters. This error
-        # is smaller than their last change.
+        # No value of ``body`` is used after the loop, so only the error of the unknowns matters. It is
+        # smaller than the change of the unknowns in the last sweep.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If the matrix of Newton's method is expanded to first order in h, the loop converges only if h L is
-        # small. All other loops may converge for larger h L, and the values of ``body`` may then have larger
-        # errors. The bound for these other loops is therefore smaller.
+        # If the matrix of Newton's method is expanded to first order in h, the loop converges only if the
+        # Lipschitz constant h L of the images is small. All other loops may converge for larger h L. The
+        # errors of the values of ``body`` may then be larger, so these loops need a smaller bound.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -182,13 +184,14 @@ class Start:
     first). The extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth``
     solutions are stored.
 
-    The degree is adapted to the sizes of the backward differences u1 - u2, u1 - 2 u2 + u3, and so on. If the
-    next higher difference is smaller than the present one, the degree is increased. If the estimated error of
-    an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except u1
-    are discarded.
+    The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
+    (order 2), and so on. If the difference of order d + 1 is smaller than the difference of order d, then d
+    is increased. Otherwise, if the difference of order d - 1 is smaller, d is reduced. If the estimated error
+    of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except
+    u1 are discarded.
 
-    If the loops do not converge, the step size is halved until they converge. The solution for a small step
-    size then provides the first values for a larger step size, until the whole step is solved (continuation
+    If the loops do not converge, the step size is halved until they converge. The solution for this step size
+    provides the first values for a larger step size. This is repeated until the step size is h (continuation
     in h). If the loops do not converge for a larger step size, the step size grows by a smaller factor. The
     continuation fails if this factor is at most 1 + ``SHORTEST``, or after ``TRIES`` step sizes.
     """
@@ -198,23 +201,25 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The extrapolation of degree 0 is u1, the solution of the last step. The error of u1 is the change of the
-    # unknowns in the step. If the error of another extrapolation exceeds half of this change, the
-    # extrapolation is hardly better than u1.
+    # The simplest first value is u1, the solution of the last step. Its error is the change of the unknowns
+    # in the step. If the error of an extrapolation exceeds half of this change, the extrapolation is hardly
+    # better than u1.
     ROUGH: ClassVar[float] = 0.5
-    # The limit ``TRIES`` is hardly ever reached, because 100 halvings of the step size give 2^-100 h.
+    # The continuation tries at most ``TRIES`` step sizes. This limit is hardly ever reached: after 100
+    # halvings the step size would be 2^-100 h.
     TRIES: ClassVar[int] = 100
     # The step size grows by a factor of at most 4. If the loops do not converge for a larger step size, the
-    # factor is replaced by its square root. After nine successive failures it is at most 4^(1/2^9) < 1 +
-    # 2^-8.
+    # factor is replaced by its square root. After nine successive failures the factor is at most 4^(1/2^9),
+    # which is less than 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
 @dataclass(frozen=True)
 class Field:
-    """A named part of the state, the input or the output of a kernel, for example the momentum mu.
+    """A named part of the state, of the input or of the output of a kernel.
 
-    ``symbols`` are the names of its scalars, and ``meaning`` describes it in words.
+    An example is the momentum mu, a part of the state. ``symbols`` are the names of the scalars in the field,
+    and ``meaning`` describes the field in words.
     """
 
     name: str
@@ -231,9 +236,9 @@ class Deferred:
     ``begin`` once, the kernel of the step once for each step, and ``finish`` once. A long run is divided into
     runs of at most :data:`LONGEST` steps.
 
-    The symbol :data:`LEAD` is the duration of the last flow of the kernel. It is ``last`` times h in a single
-    step and in the last step of a run. In all other steps it is ``later`` times h. The symbol :data:`ELAPSED`
-    is the duration of the single step or of the whole run.
+    The symbol :data:`LEAD` is the duration of the last flow of the kernel. In a single step and in the last
+    step of a run, this duration is h times the number ``last``. In all other steps it is h times the number
+    ``later``. The symbol :data:`ELAPSED` is the duration of the single step or of the whole run.
     """
 
     begin: Kernel | None
@@ -252,10 +257,12 @@ class Carried:
     """The conversions of a step that uses the momentum m in the body frame in place of the space momentum mu.
 
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index
-    ``first`` of the state. The kernel of the step maps (q, m) to (q', m'). A run of several steps computes m
-    once, calls the kernel once for each step, and computes the new space momentum mu' once. The formula is
-    mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q slightly non-orthogonal. In this
-    formula they affect only the change of the momentum.
+    ``first`` of the state. The kernel of the step maps (q, m) to (q', m').
+
+    A run of several steps computes m at its beginning, and calls the kernel once for each step. At its end it
+    computes the new space momentum: mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q
+    slightly non-orthogonal, so outward(q, m) has a small error. A similar error of outward(q', m') nearly
+    cancels it.
     """
 
     inward: Kernel
@@ -288,7 +295,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial in time of the solution that begins at the state.
+    """The Taylor polynomial of the solution as a function of time. Its initial value is the state.
 
     The outputs of the kernel ``coefficients`` are the Taylor coefficients of the orders 1, ..., ``degree``,
     one order after the other. If the polynomial uses other coordinates than the state, ``enter`` computes
@@ -297,10 +304,12 @@ class Expansion:
 
     If ``following`` is given, a loop over the order n computes the coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs: the
-    values that the loop uses but does not compute, and the coefficients of order 1. For a product of two
-    series a and b, the loop computes the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1. The number of inner sums
-    is ``sums``. The kernel ``following`` has three groups of outputs: the values a_n, the values b_n, and the
-    coefficients of order n + 1.
+    values that the loop uses but does not compute, and the coefficients of order 1.
+
+    Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
+    The loop computes ``sums`` inner sums. The kernel ``following`` has three groups of outputs: the
+    coefficients a_n for all inner sums, the coefficients b_n for all inner sums, and the Taylor coefficients
+    of order n + 1.
     """
 
     degree: int
@@ -367,14 +376,16 @@ class Kernel:
       state) after the step.
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
+    - ``carried`` contains the conversions of the momentum if the kernel uses the body momentum in place of
+      the space momentum.
     - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of any
       other method. A run with step-size control needs one of them.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a run to a given end time.
 
-    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes a step on large
-    matrices (``arrays``), on a lattice (``sites``) or on Fourier modes (``modes``).
+    A kernel without ``outputs`` is of one of four types. With ``expansion`` it evaluates a Taylor polynomial.
+    With ``arrays`` it executes a step on large matrices, with ``sites`` on a lattice, and with ``modes`` on
+    Fourier modes.
     """
 
     name: str
@@ -399,8 +410,8 @@ class Kernel:
 
     @property
     def adaptive(self) -> bool:
-        """True if the emitted code contains a run that chooses its step sizes."""
-        # A run needs an error estimate or Taylor coefficients to choose its step sizes.
+        """True if the emitted code contains a function that integrates with step-size control."""
+        # Step-size control needs an error estimate or Taylor coefficients.
         return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
@@ -421,7 +432,7 @@ class Kernel:
                 yield statement
                 continue
             yield from statement.body
-            # Newton's method has assignments of its own for the entries of its matrix.
+            # The assignments in ``newton.body`` compute the matrix of Newton's method.
             if isinstance(statement, Loop) and statement.newton is not None:
                 yield from statement.newton.body
 
@@ -453,7 +464,7 @@ class Kernel:
             yield from self.estimate.errors
 
     def functions(self) -> tuple[str, ...]:
-        """Return the names of the functions that the expressions call, sorted."""
+        """Return the sorted names of the functions that the expressions call."""
         # The order of a set is not fixed, so the names are sorted.
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
@@ -464,6 +475,6 @@ class Kernel:
             # The step also calls the kernels of the deferred flows.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # A separate kernel computes the coefficients of the Taylor polynomial.
+            # The kernel that computes the Taylor coefficients is also a part of the step.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -1,7 +1,7 @@
 """A step of a large linear problem y' = A(t) y. It uses only products of matrices and vectors.
 
 The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials to the state. Each
-exponent is a sum of letters and of commutators. A letter is a linear combination of the a_i. A commutator
+exponent is a letter plus multiples of commutators. A letter is a linear combination of the a_i. A commutator
 [X, Y] is applied to a vector v as X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
 """
 
@@ -46,9 +46,9 @@ class TimeMatrix:
 
     @cached_property
     def offsets(self) -> tuple[int, ...]:
-        """The offsets of the diagonals of a banded matrix, in an order such as 0, -1, 1, -2, 2."""
+        """The offsets of the diagonals of a banded matrix, sorted by absolute value: 0, -1, 1, -2, 2, ..."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        # d and -d have equal absolute values. The second part of the key makes their order unique.
+        # The offsets d and -d have equal absolute values. The second part of the sort key orders them.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
@@ -61,12 +61,12 @@ class TimeMatrix:
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the matrices of the terms, each once."""
+        """Return the constant matrices in ``terms``, without repetitions."""
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the expressions in the matrix: the coefficients of its terms, and formulas for its
-        entries.
+        """Yield the expressions in A(t): the coefficients in ``terms``, and those entries of the matrices in
+        ``terms`` that are formulas.
         """
         for coefficient, matrix in self.terms:
             yield coefficient
@@ -77,10 +77,11 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """A matrix of the form: letter plus multiples of commutators, for example the exponent of an exponential.
+    """The sum of a letter and multiples of commutators, for example the exponent of an exponential.
 
-    ``letter`` is an index in the list of letters of the step, or None for the letter 0. ``commutators``
-    contains pairs of a coefficient and an index in the list of commutators of the step.
+    A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in the list of letters
+    of the step, or None if the sum contains no letter. ``commutators`` contains pairs of a coefficient and an
+    index in the list of commutators of the step.
     """
 
     letter: int | None
@@ -93,8 +94,9 @@ class LinearArrayStep:
 
     - ``argument`` is y0.
     - ``times`` are the times at which ``matrix`` is evaluated.
-    - ``letters`` are linear combinations of the values of the matrix, times h.
-    - ``commutators`` contains for each commutator [X, Y] the pair (X, Y). X and Y consist of letters and
+    - ``letters`` are linear combinations of the matrices h A(t_i). Here A is ``matrix``, and t_i is the time
+      with the index i.
+    - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y consist of letters and
       earlier commutators.
     - ``exponents`` are X_1, ..., X_m in this order.
     """
@@ -112,9 +114,7 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return how often a stored matrix is multiplied by a vector when ``element`` is multiplied by a
-        vector.
-        """
+        """Return the number of matrix-vector products that are needed to multiply ``element`` by a vector."""
         # A letter is stored as one matrix, so it needs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
@@ -130,11 +130,11 @@ class LinearArrayStep:
         """
         # y has k columns, so each matrix is multiplied by k vectors.
         size, k = self.argument.size, self.argument.columns
-        # The Taylor polynomial of exp(X) y has the terms X^j y/j!. Each term is a multiple of X times the
-        # previous term.
+        # The Taylor polynomial of exp(X) y has the terms X^j y/j!. Term j is the product of X and term j - 1,
+        # divided by j.
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
-        # Each term of a Taylor polynomial is also scaled and added to the sum of the terms.
+        # After the product with X, each term of a Taylor polynomial is scaled and added to the sum.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

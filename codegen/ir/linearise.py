@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in the step size h, for simplified Newton iterations.
 
 Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns of the
-implicit equations. Higher powers of h are never computed. With this approximate Jacobian, each iteration
-multiplies the error by O(h^2).
+implicit equations. Higher powers of h are never computed. The error of this approximate Jacobian is O(h^2).
+Therefore each iteration multiplies the error of the unknowns by O(h^2).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The names of the functions that :func:`_called` can expand to first order in h. Piecewise polynomials,
-which have names of their own, are not listed.
+"""The names of the functions that :func:`_called` can expand to first order in h. It can also expand
+piecewise polynomials, which are recognised by their class and not by their names.
 """
 
 Pair = tuple[Expr, Expr]
@@ -38,7 +38,8 @@ class _Dual:
     """An expansion v_0 + v_1 h, and its derivatives with respect to the unknowns.
 
     ``value`` is (v_0, v_1). ``slopes`` maps the index of an unknown to the derivative with respect to this
-    unknown. This derivative is also an expansion v_0 + v_1 h. Derivatives that are zero have no entry.
+    unknown. This derivative is also an expansion v_0 + v_1 h. ``slopes`` contains no derivatives that are
+    zero.
     """
 
     value: Pair
@@ -61,12 +62,13 @@ class FirstOrder:
         self.duals: dict[int, _Dual] = {}
 
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
-        """Return the derivatives of the roots, one row for each root. All roots must belong to one space.
+        """Return the derivatives of the expressions ``roots`` with respect to the unknowns.
+
+        The result has one row for each root. All roots must be expressions of the same :class:`Space`.
 
         :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
-        # The space of the expressions is taken from the first root, so a list without roots is a special
-        # case.
+        # An empty list is a special case, because the space of the expressions is taken from the first root.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
@@ -119,7 +121,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case _ if node.payload in EXPANDED or isinstance(node.payload, PiecewisePolynomial):
             return _called(space, node.payload, args[0])
         case _:
-            raise NotLinearised(f"the function {node.payload} has no rule for its expansion in h")
+            raise NotLinearised(f"the function {node.payload} cannot be expanded in h")
 
 
 def _times(a: Pair, b: Pair) -> Pair:
@@ -174,7 +176,8 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
-    # The tables contain only derivatives that are not zero. A missing derivative is replaced by ``none``.
+    # ``a.slopes`` and ``b.slopes`` contain only derivatives that are not zero. A missing derivative is
+    # therefore zero.
     places = sorted({*a.slopes, *b.slopes})
     slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
     return _Dual(pair(a.value, b.value), _trimmed(slopes))
@@ -192,7 +195,8 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         # The Stumpff function c_k is expanded only at 0, where its derivatives are rational numbers.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
-        # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so c_k''(0) is twice the coefficient of z^2.
+        # The three numbers are the coefficients of 1, z and z^2 in the series c_k(z) = 1/k! - z/(k+2)! +
+        # z^2/(k+4)! - .... The second derivative c_k''(0) is twice the coefficient of z^2.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
@@ -213,7 +217,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         slope_of = function.derivative()
         at, first, second = (space.call(f, low) for f in (function, slope_of, slope_of.derivative()))
     elif function == ABSOLUTE:
-        # The slope of the absolute value is constant on each side of 0.
+        # The derivative of the absolute value is constant on each side of 0, so the second derivative is 0.
         at, first, second = space.call(ABSOLUTE, low), sign(low), space.zero
     elif function in ELEMENTARY:
         at, rule = space.call(function, low), ELEMENTARY[function]

@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
 
 DEGREES = (4, 8, 12, 16)
-"""The degrees of the Taylor polynomials. A polynomial of degree 4 g requires g + 2 products of matrices."""
+"""The degrees of the Taylor polynomials. For g = 1, 2, 3 and 4, the polynomial of degree 4 g requires g + 2
+products of matrices.
+"""
 
 LEAST_DIGITS = 10
 """The smallest accepted number of correct binary digits, about three decimal digits. If the bound of the
@@ -39,24 +41,25 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 def pairs(level: int) -> Pairs:
     """Return the pairs of indices that define the product of two jets of level ``level``.
 
-    Let A and B be two jets. The matrix with the index m of their product is the sum of A_j B_k over the pairs
-    (j, k) in entry m of the result.
+    Let A and B be two jets with the matrices A_j and B_k. Matrix m of the product A B is the sum of A_j B_k
+    over the pairs (j, k) in entry m of the returned tuple.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # If j and k have no common bit, then e_j e_k = e_m with m = j + k. If they have a common bit, the product
-    # e_j e_k contains the square of a symbol and is zero.
+    # The product of e_j and e_k contains the symbols for the bits of j and k. If j and k have no common bit,
+    # then e_j e_k = e_m with m = j + k. If they have a common bit, the product contains the square of a
+    # symbol and is zero.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m of :data:`DEGREES`, the largest norm of a matrix for which the Taylor
-    polynomial of this degree is used.
+    """Return a bound of the norm for each degree m of :data:`DEGREES`. The Taylor polynomial of degree m is
+    used only for matrices with a norm up to this bound.
 
-    This norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For a smaller norm, the error of the
+    The bound is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For a smaller norm, the error of the
     polynomial is below a quarter of the unit roundoff 2^-``bits``.
 
     >>> largest_norms(53)
@@ -68,7 +71,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a``, that is, of an n x n matrix with its derivatives.
+    """Return the exponential of the jet ``a``. A jet is an n x n matrix with its derivatives.
 
     All results are NaN if at least three correct digits cannot be guaranteed.
     """
@@ -78,7 +81,8 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
-    # The number of halvings is limited. The norm of the scaled matrix may therefore still be too large.
+    # The number of halvings is limited. If the norm of the scaled matrix is still too large, the results are
+    # NaN.
     if norm > largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
@@ -90,7 +94,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     ``norm`` is the norm of the matrix before scaling.
     """
     scale, squarings = 1.0, 0
-    # Each squaring about doubles the relative error, so no digit is correct after 53 squarings.
+    # Each squaring doubles the relative error approximately, so no digit is correct after 53 squarings.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -106,25 +110,25 @@ def _norm(a: Sequence[float]) -> float:
 
 
 def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
-    """Return the product of two jets, that is, of two matrices with their derivatives."""
+    """Return the product of two jets. A jet is a matrix with its derivatives."""
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
         factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
-        # ``left`` contains the rows of each left factor, and ``right`` contains the columns of each right
-        # factor.
+        # ``factors`` contains pairs (x, y) of matrices to multiply. ``left`` contains the rows of each matrix
+        # x, and ``right`` contains the columns of each matrix y.
         left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Entry (i, j) is a sum over all pairs in ``factors``. A pair contributes row i of its left
-                # factor times column j of its right factor. ``merged`` yields the pairs of numbers to
-                # multiply.
+                # Entry (i, j) of the sum of the matrices x y is a sum of products of two numbers. Each pair
+                # (x, y) contributes row i of x times column j of y. ``merged`` yields the two numbers of each
+                # product.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
                 )
-                # The sum begins with the first product and not with 0, which saves one addition.
+                # The sum begins with the first product and not with 0, to save one addition.
                 x, y = next(merged)
                 total = x * y
                 for x, y in merged:
@@ -134,27 +138,29 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the value of the Taylor polynomial of the exponential at ``b1``, a matrix with its derivatives.
+    """Return the Taylor polynomial of the exponential, evaluated at ``b1``. Here ``b1`` is a jet (a matrix
+    with its derivatives).
 
     ``norm`` is the norm of the matrix. The degree is the smallest sufficient degree in :data:`DEGREES`.
     """
-    # Let A be the argument, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G, the
-    # terms of degrees 4 g to 4 g + 3 form group g, a polynomial of degree 3 times A^(4 g). The term of degree
-    # 4 G belongs to no group.
+    # Let A be the argument ``b1``, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G,
+    # the terms of degrees 4 g to 4 g + 3 form group g. Each group is the product of A^(4 g) and a polynomial
+    # of degree 3. The term of degree 4 G belongs to no group.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. They are computed once for all groups of terms.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # Horner's rule in A^4 begins with the term of degree 4 G. The first value of ``total`` is the coefficient
-    # of this term times A^4. This value already contains a factor A^4, so the first pass of the loop needs no
+    # Horner's rule in A^4 begins with the term c_(4 G) A^(4 G) of highest degree. The first value of
+    # ``total`` is c_(4 G) A^4. It already contains a factor A^4, so the first pass of the loop needs no
     # product with A^4.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The largest terms are added last, because this order causes the smallest rounding errors.
+        # The terms are added from the highest degree to the lowest. The largest terms are then added last,
+        # and the rounding errors are small.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
@@ -171,8 +177,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     logarithmic norm). The result is the exponential of ``scale`` times this bound. For a skew-symmetric
     matrix the result is 1.
     """
-    # The bound is for the largest eigenvalue, not for the largest absolute value of an eigenvalue. The
-    # diagonal entries are therefore used with their signs.
+    # The result needs the largest eigenvalue of the symmetric part. This eigenvalue may be negative, so the
+    # diagonal entries are used with their signs.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -190,16 +196,17 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
     """Square the jet ``total`` repeatedly, and return its power with the exponent 2^``squarings``.
 
-    All entries are NaN if the first matrix of the result may have fewer than three correct digits. This is
-    decided by a bound of the error. If a matrix E has the error e, its computed square has an error of at
-    most about 2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and |E| is the spectral norm. ``growth`` is
-    a bound of the spectral norm of the first matrix of ``total``.
+    All entries are NaN if the first matrix of the result may have fewer than three correct digits, that is,
+    if the bound of its error is too large. The bound is computed as follows. If a matrix E has the error e,
+    its computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and
+    |E| is the spectral norm. ``growth`` is a bound of the spectral norm of the first matrix of ``total``.
     """
     size, unit = n * n, 2.0**-53
-    # The first value of ``error`` is a bound of the error of ``total``.
+    # ``error`` is a bound of the error of ``total``, here before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # ``growth`` and the Frobenius norm are both bounds of the spectral norm. The smaller one is used.
+        # ``growth`` and the Frobenius norm are two bounds of the spectral norm of the first matrix of
+        # ``total``. The smaller bound is used.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # If ``growth`` is a bound for the norm of a matrix, its square is a bound for the norm of the squared
@@ -212,7 +219,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 
 
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet (a matrix with its derivatives) of mpmath numbers.
+    """Return the exponential of the jet ``a``, a matrix of mpmath numbers with its derivatives.
 
     The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if n
     times the largest absolute value of an entry of the matrix is 2^40 or more.
@@ -220,13 +227,13 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
-    # The norm of the scaled matrix is below 2^-8. Each term of the series is therefore less than 2^-8 times
-    # the previous term.
+    # The norm of the scaled matrix is below 2^-8. The norm of each term of the series is therefore less than
+    # 2^-8 times the norm of the previous term.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation, and each squaring loses one
-    # bit by rounding. The working precision is therefore higher than the requested precision. At most 2000
-    # digits are added for the cancellation. A copy of the context is used, so that the precision of the
-    # caller does not change.
+    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation, which is at most the bound
+    # ``size`` of the norm of A. Each squaring also loses one bit by rounding. The working precision is
+    # therefore higher than the requested precision, by at most 2000 digits for the cancellation. A copy of
+    # the context is used, so that the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
@@ -234,7 +241,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     # The sum begins with the unit matrix. Its derivatives are zero.
     total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
     term, k = total, 0
-    # The sum is about 1, so terms below ``work.eps`` do not change it.
+    # The first matrix of the sum is close to the unit matrix, so terms below ``work.eps`` are negligible.
     while any(abs(x) > work.eps for x in term):
         k += 1
         term = [x / k for x in product(n, level, term, b)]
@@ -245,7 +252,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet (a matrix with its derivatives) of power series, exactly.
+    """Return the exact exponential of the jet ``a``, a matrix of power series with its derivatives.
 
     The constant terms of the first matrix of the jet must form a nilpotent matrix, so that the exponential is
     a finite sum. ArithmeticError is raised if the sum has more than ``longest`` terms.
@@ -253,7 +260,7 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
     for k in range(1, longest + 1):
-        # With this pass ``term`` becomes A^k/k!, where A is the jet ``a``.
+        # In pass k of the loop, ``term`` becomes A^k/k!, where A is the jet ``a``.
         factor = ring.rational(1, k)
         term = [factor * x for x in product(n, level, term, a)]
         if all(ring.is_zero(x) is True for x in term):

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The zeros in a matrix A may imply that only the first terms of exp(A) = 1 + A + A^2/2 + ... are non-zero.
-If there are at most this number of non-zero terms, they are written as scalar formulas.
+"""If the sum exp(A) = 1 + A + A^2/2 + ... has at most this number of non-zero terms, it is written as scalar
+formulas. The sum is finite if the zeros in the matrix A imply that a power of A is zero.
 """
 
 
@@ -24,10 +24,10 @@ If there are at most this number of non-zero terms, they are written as scalar f
 class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
-    For ``level`` = 0 the function is the exponential of a matrix. The function of level l + 1 is the function
-    of level l together with its derivative. Its arguments are the arguments of level l, followed by their
-    derivatives. Its results are the results of level l, followed by their derivatives. The matrices of the
-    arguments together are called a jet.
+    For ``level`` = 0 the function maps a matrix to its exponential. The function of level l + 1 computes the
+    function of level l and its derivative. It has the arguments of the function of level l, followed by the
+    derivatives of these arguments. It returns the results of the function of level l, followed by the
+    derivatives of these results. All arguments together are called a jet: a matrix with its derivatives.
     """
 
     n: int
@@ -45,15 +45,17 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The typical numbers of additions and multiplications of a call, without squarings."""
-        # A product of two jets of level l consists of 3^l products of matrices. A Taylor polynomial of degree
-        # 12 needs five products of jets.
+        """The typical numbers of additions and multiplications in one call. Squarings are not counted."""
+        # A product of two jets of level l (matrices with their derivatives) consists of 3^l products of
+        # matrices. A Taylor polynomial of degree 12 needs five products of jets.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results. They are the second half of the results of the function with
-        the level ``level`` + 1.
+        """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``.
+
+        The exponential of the next level (``level`` + 1) returns these derivatives in the second half of its
+        results.
         """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -64,13 +66,14 @@ class MatrixExponential(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
 
-        The zeros in A determine the number of terms.
+        A is the jet ``args`` (a matrix with its derivatives). Its zeros determine the number of terms.
         """
-        # ``pattern`` is 1 for each entry that may be non-zero, and 0 for all others. Nothing cancels in its
-        # powers. Hence a zero in a power of ``pattern`` is also a zero in the same power of A.
+        # ``pattern`` is 1 for each entry of A that may be non-zero, and 0 for all others. It has no negative
+        # entries, so nothing cancels in its powers. Hence a zero in a power of ``pattern`` is also a zero in
+        # the same power of A.
         pattern = power = [int(not x.is_zero) for x in args]
         # The sum is finite if the first matrix of the jet is nilpotent. The other matrices of the jet are
-        # derivatives and may be arbitrary, because each term of a power contains at most ``level`` of them.
+        # derivatives. They may be arbitrary, because products of more than ``level`` derivatives are zero.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
@@ -96,19 +99,19 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_doubles(self.n, self.level, args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for mpmath numbers."""
+        """Return the exponential in mpmath numbers with about ``digits`` correct digits."""
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for truncated power series.
+        """Return the exponential of a matrix of truncated power series, and its derivatives.
 
         ``args`` is a jet: a matrix A, followed by its derivatives. The constant terms of A must form a
         nilpotent matrix.
         """
-        # Let N be the nilpotent matrix of the constant terms, so that N^n = 0. The jet A also contains
-        # symbols d_k with d_k^2 = 0 (see :mod:`codegen.ir.matrix_exponential`). Each term of A^``longest``
-        # contains N^n, a square of a d_k, or a truncated power of h. The power A^``longest`` is therefore
-        # zero.
+        # Let N be the nilpotent matrix of the constant terms, so that N^n = 0. All other terms of the jet
+        # contain h or a symbol d_k with d_k^2 = 0 (see :mod:`codegen.ir.matrix_exponential`). A product of
+        # ``longest`` terms of the jet contains n successive factors N, or a factor d_k twice, or a power of h
+        # that is truncated. It is zero in each of these three cases.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -139,7 +142,7 @@ class MatrixInverse(VectorFunction):
 
         ``args`` are the entries of g, and ``rates`` are the entries of g'.
         """
-        # Differentiation of g g^-1 = 1 gives g' g^-1 + g (g^-1)' = 0.
+        # Differentiation of g g^-1 = 1 gives g' g^-1 + g (g^-1)' = 0, so (g^-1)' = -g^-1 g' g^-1.
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
@@ -153,7 +156,7 @@ class MatrixInverse(VectorFunction):
         return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the inverse for mpmath numbers. ZeroDivisionError is raised for a singular matrix."""
+        """Return the inverse in mpmath numbers. ZeroDivisionError is raised for a singular matrix."""
         return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -176,11 +179,11 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if the zeros in ``pattern`` imply that an n x n matrix is nilpotent.
+    """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
 
-    The matrix has a zero at each place at which ``pattern`` has a zero. Its other entries are arbitrary. The
-    criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero entry
-    (i, j) of ``pattern``. The matrix is nilpotent if the graph has no cycle.
+    Such a matrix has a zero at each place at which ``pattern`` has a zero. Its other entries are arbitrary.
+    The criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero
+    entry (i, j) of ``pattern``. All such matrices are nilpotent if the graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)

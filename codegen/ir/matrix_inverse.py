@@ -22,7 +22,7 @@ def inverse(
     order: list[int] = []
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # In this form the test also finds a NaN, because comparisons with a NaN are false.
+        # The test ``not ... > 0`` is also true for a NaN, because comparisons with a NaN are false.
         if not size(rows[pivot][k]) > 0:
             return None
         order.append(pivot)
@@ -37,8 +37,8 @@ def inverse(
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # An exchange of two rows of a matrix exchanges two columns of its inverse. The exchanges are undone in
-    # reverse order.
+    # An exchange of two rows of a matrix exchanges two columns of its inverse. The columns are therefore
+    # exchanged here, in the reverse order of the row exchanges.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

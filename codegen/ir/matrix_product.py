@@ -24,18 +24,18 @@ class BilinearFunction(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of results of the function."""
+        """The number of entries of f(a, b)."""
         return self.n**2
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The numbers of entries of the two matrices."""
+        """The numbers of entries of the matrices a and b."""
         return (self.n**2, self.n**2)
 
     @abstractmethod
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for any type of scalars: doubles, mpmath numbers, power series or
-        expressions.
+        """Return the entries of f(a, b) for scalars of any type: doubles, mpmath numbers, power series or
+        expressions. ``args`` are the entries of a and b.
         """
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -55,39 +55,38 @@ class BilinearFunction(VectorFunction):
         return total
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to the argument with the index ``argument``.
+        """Return the derivatives of the entries of f(a, b) with respect to one entry of a or b.
 
-        This argument is an entry of a or of b.
+        ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # Let E be the matrix with the entry 1 at the place of this argument, and zeros elsewhere. f is linear
-        # in the matrix that contains the argument. The derivative is therefore the value of f with E in place
-        # of this matrix.
+        # Let E be the matrix with 1 at the place of this entry, and zeros elsewhere. The function f is linear
+        # in a and in b. The derivative is therefore f(E, b) for an entry of a, and f(a, E) for an entry of b.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # ``half`` selects the entries of the replaced matrix.
+        # ``half`` selects the entries of the matrix (a or b) that E replaces.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of ``unit`` are zero, so the scalar formulas of the result are short. A call of the
-        # function in emitted code would compute many zeros.
+        # The scalar formulas of the result are short, because most entries of E are zero. They are preferred
+        # to a call of the function in emitted code, which would compute many zeros.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return zeros if one of the two matrices is zero, otherwise None."""
+        """Return a matrix of zeros if a or b is zero, otherwise None."""
         if all(x.is_zero for x in args[: self.size]) or all(x.is_zero for x in args[self.size :]):
             return (args[0].space.zero,) * self.size
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results for doubles."""
+        """Return the entries of f(a, b) in doubles."""
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for mpmath numbers."""
+        """Return the entries of f(a, b) in mpmath numbers."""
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for power series."""
+        """Return the entries of f(a, b) as power series."""
         return self.arithmetic(args)
 
 
@@ -104,7 +103,7 @@ class MatrixProduct(BilinearFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications of a product."""
+        """The numbers of additions and multiplications in the product of two matrices."""
         return {"add": self.n**3 - self.n**2, "mul": self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -125,7 +124,7 @@ class MatrixCommutator(BilinearFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications of two products and a difference."""
+        """The numbers of additions and multiplications in a commutator: two products and a difference."""
         return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -63,7 +63,7 @@ ONE = Number.rational(1)
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A coefficient of a step as a function of z: a polynomial in the functions :class:`Factor`.
+    """A coefficient of a step as a function of z. It is a polynomial in functions of z (:class:`Factor`).
 
     ``terms`` maps each monomial to its exact numeric coefficient.
     """
@@ -121,7 +121,7 @@ class Multiplier:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors in all terms, each once, in the order of the terms."""
+        """The factors in all terms, without repetitions, in the order of the terms."""
         # The dictionary removes repeated factors and keeps their order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
@@ -190,11 +190,12 @@ class Table:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a linear combination: a coefficient times the old state, or times a value of N.
+    """One term of a linear combination: a coefficient times the old state, or times a value of the nonlinear
+    part N.
 
-    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise it contains the value of N in
-    the evaluation with the index ``source``. The coefficient is the table with the index ``table``, or 1 if
-    ``table`` is None.
+    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise it contains the value of N that
+    the evaluation with the index ``source`` computes. The coefficient is the table with the index ``table``,
+    or 1 if ``table`` is None.
     """
 
     source: int
@@ -220,8 +221,8 @@ class Nonlinearity:
     - ``formulas`` is the kernel of the functions. Its inputs are the derivatives in ``inner``, x, t and the
       parameters. It has one output for each term of N. Term j of N is output j, differentiated ``outer[j]``
       times with respect to x.
-    - ``kept`` is the fraction of the Fourier modes that is not set to zero when N is evaluated. All higher
-      modes are set to zero to avoid aliasing.
+    - ``kept`` is the fraction of the Fourier modes of N that are used. The modes with the highest wave
+      numbers are set to zero to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -269,7 +270,7 @@ class ModeStep:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The functions of z in the coefficients of the step, each once, sorted."""
+        """The sorted functions of z in the coefficients of the step, without repetitions."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
         # The factors are sorted, so that their order does not depend on the order of the tables.
         return tuple(sorted(factors, key=lambda f: f.order))
@@ -278,20 +279,20 @@ class ModeStep:
     def backwards(self) -> bool:
         """True if a coefficient of the step contains exp(c z) or phi_1(c z) with c < 0.
 
-        If L is dissipative, its eigenvalues and z are negative. These functions then grow exponentially with
-        h.
+        Here z is h times an eigenvalue of the linear operator L. For negative eigenvalues, exp(c z) and
+        phi_1(c z) with c < 0 grow exponentially with h.
         """
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property
     def growth(self) -> int:
-        """A number p such that all coefficients of the step are at most a constant times (1 + |z|)^p for z <
-        0.
+        """A number p that describes the growth of the coefficients of the step. For z < 0, their absolute
+        values are at most a constant times (1 + |z|)^p.
 
-        This is not true if :attr:`backwards` is true, because some coefficients then grow exponentially.
+        If :attr:`backwards` is true, this bound is wrong, because some coefficients grow exponentially.
         """
-        # As z tends to -infinity, phi_1(z) behaves like -1/z, and z/(exp(z) - 1) behaves like -z. The
-        # function exp(z) is at most 1.
+        # ``degrees`` contains exponents of |z|. As z tends to -infinity, phi_1(z) behaves like -1/z,
+        # z/(exp(z) - 1) behaves like -z, and exp(z) is at most 1.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         # The degree of a product is the sum of the degrees of its factors. The result is the largest degree
         # of all terms.
@@ -304,7 +305,7 @@ class ModeStep:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run."""
-        # The initial state is computed before a run, so its kernel is missing here.
+        # The kernel ``initial`` is omitted, because the initial state is computed before a run.
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
@@ -321,7 +322,7 @@ class ModeStep:
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
             # The poles are purely imaginary and not zero. They matter only if z is not real.
-            poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
+            poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"coefficients for z < 0: {self.bound()}")
         lines.append(
@@ -335,7 +336,7 @@ class ModeStep:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
             power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
-            return f"some grow like {power}, which may require short steps"
+            return f"some grow like {power}, so short steps may be required"
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:

@@ -3,8 +3,8 @@
 Such an equation is called a relation. It states that the product of two coordinates equals a sum. An
 expression is first expanded as a polynomial in symbols, function calls and inverses. Then each product to
 which a relation applies is replaced by the equal sum. For example, |g y|^2 becomes |y|^2 if g is orthogonal.
-The result is called the normal form of the expression, although equal expressions may have different normal
-forms. The normal form may be longer than the given expression.
+The result is called the normal form of the expression. It is not unique: equal expressions may have different
+normal forms. The normal form may be longer than the given expression.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ class TooLong(ArithmeticError):
 
 
 class NormalForms:
-    """Simplifies expressions of one space by relations.
+    """Simplifies the expressions of one :class:`Space` by relations.
 
     Each relation replaces a product of two symbols by an equal sum. The replacement is repeated until no
-    relation applies. The relations must be such that this process ends. The expressions in ``whole`` are not
-    expanded.
+    relation applies. The caller must choose relations for which this process ends. The expressions in
+    ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -64,8 +64,8 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The sum ``right`` may itself contain products that a relation replaces. ``_reduced`` replaces
-            # them when it inserts the sum.
+            # The sum ``right`` may itself contain products to which a relation applies. They are replaced
+            # later, in ``_reduced``.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -79,7 +79,7 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and replace products by relations until no relation applies.
+        """Expand ``root`` as a polynomial, and simplify it by the relations until no relation applies.
 
         :class:`TooLong` is raised if the polynomial has too many terms.
         """
@@ -121,16 +121,16 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression. The variable that occurs in most terms is factored out
-        first.
+        """Return a polynomial as an expression. The variable that occurs in the largest number of terms is
+        factored out first.
         """
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. Among variables that occur equally often, the one with
-        # the smallest node number is used.
+        # This is Horner's rule in several variables. If several variables occur in the largest number of
+        # terms, the variable with the smallest node number is factored out.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # If each variable occurs in only one term, factoring out would save no product.
         if best < 0 or count[best] < 2:
@@ -167,8 +167,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # The work is proportional to the number of pairs of terms. Its limit is larger than ``MOST_TERMS``,
-        # because many pairs may give the same monomial.
+        # The work is proportional to the number of pairs of terms, so this number is limited. The limit is
+        # larger than ``MOST_TERMS``, because many pairs may give the same monomial.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -182,10 +182,12 @@ class NormalForms:
         return total
 
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
-        """Apply the relations to a polynomial until no relation applies, and return the result."""
+        """Replace products in a polynomial by the relations, and return the result. It contains no product to
+        which a relation applies.
+        """
         done: Polynomial = {}
-        # ``popitem`` removes the entry that was added last. The order of the work is therefore always the
-        # same.
+        # ``popitem`` removes the entry that was added last. The terms are therefore always processed in the
+        # same order.
         waiting = dict(polynomial)
         while waiting:
             monomial, c = waiting.popitem()
@@ -211,7 +213,8 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
     if not m or not n:
         return m or n
-    # If all node numbers of m are smaller than those of n, then m + n is already sorted.
+    # Monomials are sorted by node numbers. If all node numbers in m are smaller than those in n, then the
+    # tuple m + n is already sorted.
     if m[-1][0] < n[0][0]:
         return m + n
     if n[-1][0] < m[0][0]:

@@ -1,10 +1,9 @@
 """Exact constants, such as the coefficients of a Butcher tableau. Each number is an element of a ring.
 
-A number stays exact (rational or algebraic), or is given by a ball (an interval that contains it). It is
-rounded to a double only when code is printed. Two numbers are equal if their rings give equal keys.
-Overlapping balls do not prove that two numbers are equal. Therefore the key of a ball contains the name of
-the coefficient in the file of the tableau. The difference of equal numbers is exactly 0, and their quotient
-is exactly 1. Multiplication by 1 does not make a ball wider.
+A number is exact (rational or algebraic), or it is given by a ball, that is, by an interval that contains it.
+It is rounded to a double only when code is printed. Two numbers are treated as equal if their keys are equal
+(:attr:`Number.key`). The key of a ball consists of its end points. The difference of equal numbers is exactly
+0, and their quotient is exactly 1. Multiplication by 1 does not make a ball wider.
 """
 
 from __future__ import annotations
@@ -38,7 +37,10 @@ def is_normal(value: Fraction) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Number:
-    """A real number, given exactly or by a ball that contains it. Rational numbers are elements of QQ."""
+    """A real number, given exactly or by a ball (an interval that contains it).
+
+    ``ring`` is the ring of ``element``, for example QQ (the rational numbers).
+    """
 
     ring: Ring = field(repr=False)
     element: Element = field(repr=False)
@@ -46,8 +48,8 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
-        # The key of a ball contains the name of the coefficient in the tableau file. Two balls with equal
-        # keys therefore contain the same number.
+        # The key of a ball consists of its exact end points. Two balls with equal end points are treated as
+        # the same number.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -82,15 +84,15 @@ class Number:
         except ZeroDivisionError:
             value = None
         if value is None or not is_normal(value):
-            expected = "a rational number such as 1/2 or 0.25, equal to 0 or between 1e-307 and 1e308 in size"
+            expected = "a rational number such as 1/2, with absolute value 0 or between 1e-307 and 1e308"
             raise ValueError(expected)
         return cls.rational(*value.as_integer_ratio())
 
     @cached_property
     def is_zero(self) -> bool:
         """True if this number is provably zero."""
-        # The ring returns None if it cannot decide whether a number is zero. Such a number does not count as
-        # zero.
+        # The ring returns None if it cannot decide whether a number is zero. In this case ``is_zero`` is
+        # False.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -105,7 +107,7 @@ class Number:
 
     @property
     def is_rational(self) -> bool:
-        """True if this number is stored as an element of QQ."""
+        """True if this number is stored as an element of QQ, the ring of rational numbers."""
         return self.ring is QQ
 
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
@@ -122,12 +124,12 @@ class Number:
         raise TypeError(f"numbers of two different number fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers are added directly. The test ``self == -other`` below would take longer, because it
+        # Rational numbers are added directly. This is faster than the test ``self == -other`` below, which
         # computes the keys of both numbers.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
-        # The sum of a ball and its negation would be a ball around 0. No simplification recognises such a
-        # ball as zero, so the exact 0 is returned here.
+        # If x is given by a ball (an interval), x + (-x) would be a ball around 0. No simplification treats
+        # such a ball as zero, so the exact 0 is returned here.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)
@@ -144,15 +146,16 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # If one factor is 1, the other factor is returned, because a multiplication would make a ball wider.
+        # If one factor is 1, the other factor is returned. A multiplication would make a ball (an interval)
+        # wider.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
         return Number(ring, x * y)
 
     def __truediv__(self, other: Number) -> Number:
-        # For a ball x, the quotient x/x would be a ball around 1. No simplification recognises such a ball as
-        # 1, so the exact 1 is returned here.
+        # If x is given by a ball (an interval), x/x would be a ball around 1. No simplification treats such a
+        # ball as 1, so the exact 1 is returned here.
         if self == other:
             return Number.rational(1)
         ring, x, y = self._join(other)
@@ -179,5 +182,7 @@ class Number:
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Return this number as text. The text is exact, or has 20 digits if the number is a ball."""
+        """Return this number as text. The text is exact, or a rounded decimal if the number is given by a
+        ball (an interval).
+        """
         return self.ring.text(self.element)
