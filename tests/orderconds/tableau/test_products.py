@@ -134,12 +134,12 @@ MALFORMED = {
     "a part twice": (
         'name = "t"\nfamily = "splitting"\nparts = ["T", "T"]\nstep = [["T", 1]]\n',
         "'T' twice",
-        "a name for each",
+        "different names of the parts",
     ),
     "a part without name": (
         'name = "t"\nfamily = "splitting"\nparts = ["T", ""]\nstep = [["T", 1]]\n',
         "without name",
-        "a name for each",
+        "different names of the parts",
     ),
     "no step": (SPLITTING + "step = []\n", "0 stages", "1 to 200"),
     "a step of an unknown part": (
