@@ -37,7 +37,8 @@ class Content:
 
     - ``about`` describes the sweep.
     - ``stored`` contains pairs (rows, variable that is stored in these rows).
-    - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces the unknowns by g(u).
+    - ``unknowns`` are the unknowns u of equations u = g(u). Without Newton's method, the sweep replaces the
+      unknowns by g(u).
     - ``measured`` is empty or contains two rows. At each site, the first row stores the largest change of an
       unknown, and the second row stores the largest absolute value.
     """
