@@ -2,15 +2,15 @@
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
 (a, b) of its Lie algebra is the vector field u -> a lambda u + b. Here b is a linear combination of values of
-N. Its coefficients are functions of z = h lambda. This module executes a program with such formulas in place
-of numbers (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
+N. Its coefficients are functions of z = h lambda. This module executes a program symbolically, with functions
+of z in place of numerical coefficients (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
 - dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
 
-The function phi_1 is (exp(z) - 1)/z. The third formula is a special case of a formula for any power series f
-and ad = ad_{h (a, b)}: f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
+The function phi_1 is phi_1(z) = (exp(z) - 1)/z. The third formula follows from an identity for ad =
+ad_{h (a, b)}. For every power series f the identity is f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N. A key is the number of a source: the old state or
-a value of N (:class:`codegen.ir.mode_step.Term`). The entry of the key is the coefficient.
+"""A linear combination of the old state and of values of N. The dictionary maps the number of each source
+to its coefficient. A source is the old state or a value of N (:class:`codegen.ir.mode_step.Term`).
 """
 
 ZERO = Number.rational(0)
@@ -173,7 +173,7 @@ class _Execution:
         """Execute an explicit program, and return its step as operations on Fourier modes."""
         for var in program.inputs:
             if var.kind is Kind.REAL:
-                # Times are in units of h, relative to the time t of the step.
+                # Times are in units of h, and the step begins at time 0.
                 self.times[var] = ZERO
             else:
                 # A point is a linear combination of the old state and of values of N. The point at the
@@ -261,7 +261,7 @@ class _Execution:
         return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
 
     def _evaluated(self, point: Var, *time: Var) -> _Element:
-        """Append an evaluation N_j at a point, and return (1, N_j), the value of the field."""
+        """Record a new evaluation N_j of N at ``point``. Return the value of the field: the pair (1, N_j)."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
         # The pair (a, b) denotes the field u -> a lambda u + b. Here a is 1, and b is the value N_j.
@@ -311,7 +311,7 @@ class _Execution:
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
-        # The division by a is possible here, because the case a = 0 has returned above.
+        # The division by a is possible here, because the method returns earlier if a = 0.
         rest = (_constant(ONE) + beta.scaled(Number.rational(-1))).scaled(y.a / x.a)
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
@@ -328,7 +328,7 @@ class _Execution:
         # The factor 1 needs no table and no product.
         if multiplier.is_one and not power:
             return None
-        # Equal multipliers share one table, so that they are computed and stored only once.
+        # Equal multipliers share one table, so that this table is computed and stored only once.
         key = (multiplier.key, power)
         if key not in self.tables:
             self.tables[key] = len(self.listed)

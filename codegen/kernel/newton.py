@@ -17,7 +17,7 @@ from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.jacobian import jacobian
 
 SMALL = 3
-"""Up to this size the inverse of a matrix is expanded by cofactors.
+"""The largest number of rows of a matrix whose inverse is computed from cofactors.
 
 A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
 each. For a 4 x 4 matrix, Gaussian elimination takes fewer operations.
@@ -39,7 +39,7 @@ AT_ZERO = {
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return the rows of 1 - g' for the images g(u)."""
+    """Return the rows of Newton's matrix 1 - g'(u). The expressions ``images`` are the components of g(u)."""
     space = images[0].space
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
@@ -47,7 +47,8 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return the rows of 1 - g' for the images g(u), without terms of second and higher order in h.
+    """Return the rows of Newton's matrix 1 - g'(u) to first order in h. The expressions ``images`` are the
+    components of g(u).
 
     ZeroDivisionError is raised if g has no value at h = 0.
     """
@@ -55,13 +56,14 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
-    """Return g(0) + h g'(0) for the images g, which are functions of h here.
+    """Return the expansion of each image in powers of h, up to first order.
 
-    ZeroDivisionError is raised if g has no value at h = 0.
+    ZeroDivisionError is raised if an image has no value at h = 0.
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives g'(h). Then h is set to zero in the images and in the slopes.
+    # ``slopes`` are the derivatives of the images with respect to h. Then h is set to zero in the images and
+    # in the slopes.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     # Images and slopes are evaluated together, because they share subexpressions.
     values = _at_zero(space, [*images, *slopes])
@@ -87,7 +89,7 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the expressions ``roots`` with 0 in place of h."""
-    # The roots are evaluated again, so that constant expressions are simplified.
+    # Evaluation creates all nodes again, so that constant expressions are simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # New nodes must be created in the same order in every run of the compiler.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}

@@ -1,4 +1,7 @@
-"""Counts the operations and function calls of a step, outside loops and in one sweep of each loop."""
+"""Counts the operations and function calls of a step.
+
+Operations outside loops are counted separately from the operations of one sweep of each loop.
+"""
 
 from __future__ import annotations
 
@@ -30,12 +33,12 @@ these operations.
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
 
-    - The key ``step`` contains the operations outside loops.
-    - The key ``start`` contains the additional operations of the first step of a run.
-    - The label of a block of implicit equations is also a key. It contains the operations of one sweep of the
-      loop that solves the equations.
-    - The key that :func:`matrix_of` returns contains the operations that compute the entries of a Newton
-      matrix.
+    The result has separate counts for the following keys:
+
+    - ``step``: the operations outside loops.
+    - ``start``: the additional operations of the first step of a run.
+    - The label of a block of implicit equations: the operations of one sweep of the loop that solves them.
+    - The key that :func:`matrix_of` returns: the operations that compute the entries of a Newton matrix.
 
     The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
     counted.
@@ -109,8 +112,10 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Count the operations for one site by name, in a step and in one iteration of each block of
-    equations.
+    """Count the operations for one site by name.
+
+    The result has separate counts for the operations outside loops, for one iteration of each block of
+    equations, and for each Newton matrix.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
@@ -125,7 +130,7 @@ def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
 
 
 def matrix_of(label: str) -> str:
-    """Return the key under which the operations of a block's matrix are counted."""
+    """Return the key under which the operations are counted that compute the Newton matrix of a block."""
     return f"matrix of {label}"
 
 
@@ -157,8 +162,8 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # The new momentum is mu + (after - before), which takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At the beginning of a run, mu is converted to the body frame and back. The result is ``before``. At
-        # the end, the new momentum is converted back, and the result is ``after``.
+        # At the beginning of a run, mu is converted to the body frame and back, which gives ``before``. At
+        # the end, the new momentum is converted back, which gives ``after``.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
@@ -209,8 +214,7 @@ def _operations_in_text(root: Expr) -> dict[str, int]:
                 own = {"add": 1}
             case op:
                 own = {op: 1}
-        # The counts of the arguments are added even if another node shares them, because the text repeats
-        # them.
+        # The text repeats an argument for each node that reads it, so its operations are counted each time.
         for arg in node.args:
             own = _plus(own, counts[arg.id])
         counts[node.id] = own

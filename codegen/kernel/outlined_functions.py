@@ -23,7 +23,7 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 
 
 class _Inputs:
-    """The inputs of a function, in order.
+    """The inputs of an outlined function.
 
     If all calls pass the same constant for an input, this constant replaces the input. Otherwise the input is
     a symbol.
@@ -37,8 +37,8 @@ class _Inputs:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
         # Constants are inserted before the operations of the function are executed, so that constants are
-        # combined. ``fixed`` contains entries for all inputs of the function, so it may be longer than
-        # ``words``.
+        # combined. ``fixed`` has an entry for each input of the function, so the rest of ``fixed`` may
+        # be longer than ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -46,15 +46,16 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c`` of a term, including powers of h.
 
-        The outlined function receives the number of ``c`` as its input ``x``. If ``x`` is a symbol, the text
-        contains the name of this symbol. If ``x`` is a constant, the text contains the number itself.
+        The input ``x`` of the outlined function is the value of ``c`` without the powers of h. If ``x`` is a
+        symbol, the text contains the name of this symbol. If ``x`` is a constant, the text contains the
+        number itself.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
     def read(self, outputs: Sequence[Expr]) -> list[int]:
-        """Return the positions of the inputs that the outputs read."""
+        """Return the positions of the inputs on which the expressions ``outputs`` depend."""
         needed = {n.payload for n in walk(outputs) if n.op == "sym"}
         return [p for p, s in enumerate(self.symbols) if s.op == "sym" and s.payload in needed]
 
@@ -71,7 +72,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed with symbols, because expressions of the step may be simplified for one call.
+    # Expressions of the step may be simplified for one call, so the tree is executed again with symbols.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -122,7 +123,7 @@ def function(
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Name the inputs of a function by their kinds: x1, x2, m1.
+    """Name the inputs of a function: a letter for the kind, and a number among the inputs of this kind.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -136,7 +137,8 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has one expression for each result. All these expressions have equal arguments.
+            # Each result of a call is an expression of its own. All results of one call have equal arguments,
+            # so they count as one call.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -172,7 +174,7 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a linear combination of vectors. ``symbol`` maps each coefficient to its symbol."""
+    """Return a linear combination of vectors. ``symbol[c]`` is the value of the coefficient c."""
     # c x + c y = c (x + y), so equal coefficients cost one product for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):

@@ -1,6 +1,6 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
-Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees of one shape
+Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees with equal keys
 differ only in their operands and coefficients, which become the arguments of one function
 (:mod:`codegen.kernel.outlined_functions`). Two calls cannot share common subexpressions, such as the sine of
 one angle. Smaller code is worth this cost only for long steps, so only long steps are outlined.
@@ -28,9 +28,9 @@ LONG, LONG_EXPLICIT = 700, 500
 """An implicit step is outlined if it has more than LONG assignments, and an explicit step if it has more than
 LONG_EXPLICIT assignments.
 
-An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
-step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. If either limit is doubled, the
-kernels of nine methods of the gallery do not change. To choose the limits again, run
+An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining shortens
+a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time. If either limit
+is doubled, the kernels of nine methods of the gallery do not change. To choose the limits again, run
 ``orderconds bench dipole`` with both limits set to 0.
 """
 
@@ -40,7 +40,7 @@ step is not outlined.
 
 Calls cost time, so the step must become much shorter. The exact limit hardly matters: the fraction is between
 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on
-heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top.
+heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top, so this variant is not outlined.
 """
 
 AGREE = 1e-9
@@ -95,7 +95,8 @@ class Outline:
             # Simplification may have removed some of the chosen calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # Each result of a call is a node. Only result 0 is counted.
+                # Each result of a call is a node of its own. Only the node of result 0 is counted, so that
+                # each call counts once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
             # A function with a single call is dropped in the next round.
@@ -138,8 +139,8 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Simplification may have removed some operands and results from the roots, so these nodes are added
-        # to the walk.
+        # The simplified expressions ``roots`` may no longer contain all operands and results of assignments.
+        # Therefore the walk also visits these operands and results.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -148,7 +149,7 @@ class Outline:
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
-        """Return the trees to outline, grouped by shape and by the results that are read."""
+        """Return the trees to outline, with one group for each function."""
         # Removing a tree changes which results of other trees are read, so the loop repeats.
         while True:
             read = self._read(roots, trees)
@@ -198,9 +199,11 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one call can compute the results ``read`` of a tree.
 
-        The level of a value is the index of the last loop on which the value depends. Two conditions must
-        hold. The results must have the same level as the call: the largest level among the inputs. The nodes
-        of the results must have been created after the nodes of the inputs.
+        The level of a value is the index of the last loop on which the value depends. The level of the call
+        is the largest level among its inputs. One call is sufficient under two conditions:
+
+        - The results have the same level as the call.
+        - The nodes of the results were created after the nodes of the inputs.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # The call depends on all inputs, so it is inside the loop with the index ``deepest``. If a result has
@@ -220,7 +223,7 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # A smaller step size at each point makes it more likely that the step has finite values.
+            # The step size is halved for each new test point, so that finite values become more likely.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             # If doubles fail at every point, numbers with more digits and a larger range are tried.

@@ -115,12 +115,15 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Replace an assignment of c (d v) by an assignment of (c d) v. Other assignments do not change."""
+        """Simplify an assignment w = c (d v) with coefficients c and d to w = (c d) v.
+
+        Other assignments do not change.
+        """
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stages compute h xi/2 from h xi. Then h xi has two readers and cannot become part of a tree.
-        # Therefore this method computes h xi/2 from xi.
+        # For example, a stage computes h xi, and h xi/2 from h xi. Then h xi has a second reader, so its tree
+        # cannot be joined with the tree of its first reader. Therefore h xi/2 is computed from xi.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -157,8 +160,7 @@ class Trees:
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
-                # Only a strictly larger gain replaces the choice, so ties are broken by the order of the
-                # program.
+                # Among pairs with equal gains, the pair that was found first is chosen.
                 if gain > saved:
                     best, saved = key, gain
             if best is None:
@@ -210,10 +212,11 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None represents a reader outside all trees. A value with such a reader keeps its name.
+                    # None represents a reader outside all trees. A value with such a reader must be a result
+                    # of its tree.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs also count as readers outside all trees.
+            # The outputs of the program are also read outside all trees.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -232,10 +235,10 @@ class Trees:
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
-        """Return the input variables of a tree in order, and the positions of the arguments of each member.
+        """Return the input variables of a tree, and for each member the positions of its arguments.
 
-        A position is the index of an input variable. The results of the members, in order, have the positions
-        -1, -2, ...
+        The positions 0, 1, ... denote the input variables. The positions -1, -2, ... denote the results of
+        the members in order of execution.
         """
         targets: dict[Var, int] = {}
         given: dict[Var, int] = {}
@@ -256,9 +259,7 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree. The shape records which coefficients are equal, but not their
-        values.
-        """
+        """Return the key of a tree. The key records which coefficients are equal, but not their values."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
@@ -314,7 +315,7 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     Equal coefficients have equal labels. The coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
-    # Sums with equal coefficients, or with the coefficient 1, need fewer products. Therefore the shape
+    # Sums with equal coefficients, or with the coefficient 1, need fewer products. Therefore the key
     # records both cases.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 

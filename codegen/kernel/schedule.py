@@ -62,7 +62,7 @@ class Invocation:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the symbols that denote the results in expressions: ``name.0``, ``name.1``, ..."""
+        """The symbols that denote the results of the call in expressions: ``name.0``, ``name.1``, ..."""
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
     @property
@@ -76,7 +76,7 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of a call and the index of its result that ``symbol`` denotes.
+    """Return the name of the call and the index of the result in the symbol ``name.index``.
 
     If the symbol does not denote a result of a call, return None.
 
@@ -92,7 +92,7 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """The starting values of the unknowns of all loops, ready to print (see
+    """The statement that sets the starting values of the unknowns of all loops, ready to print (see
     :class:`codegen.ir.kernel.Start`).
     """
 
@@ -176,7 +176,10 @@ class Arrangement:
 
 
 def arrange(kernel: Kernel) -> Arrangement:
-    """Return the printable statements of a kernel. Their order and their rounding errors do not change."""
+    """Return the statements of a kernel in printable form.
+
+    The arithmetic operations keep their order, so rounding errors do not change.
+    """
     # In some target languages a loop has no scope of its own, so all loops share one counter of names.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
@@ -199,7 +202,8 @@ def arrange(kernel: Kernel) -> Arrangement:
         # Starting values are computed before the loop.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        # Body values that are read after the loop need variables outside of the loop.
+        # Later statements may read values from the body of the loop. Such values need variables outside the
+        # loop.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
@@ -214,9 +218,7 @@ def arrange(kernel: Kernel) -> Arrangement:
 
 
 def _alone(function: Function) -> Kernel:
-    """Return a kernel with the body and the outputs of a function. The inputs of the kernel are the
-    arguments.
-    """
+    """Return a kernel with the inputs, the body and the outputs of a function."""
     return Kernel(function.name, (), function.inputs, function.body, function.outputs)
 
 
@@ -224,16 +226,15 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """Return the expressions of a statement that are computed outside loops."""
     if isinstance(statement, Let):
         return [statement.value]
-    # The statement that sets the first values may be skipped, so its calls are not shared with other
-    # statements.
+    # A ``Start`` statement may be skipped at run time, so its calls are not shared with other statements.
     return statement.starts if isinstance(statement, Loop) else []
 
 
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # Arguments of Stumpff functions in the body depend on the unknowns, so the body shares no such calls with
-    # the statements outside the loop.
+    # Stumpff functions in the body have arguments that depend on the unknowns. Therefore the body does not
+    # share calls of Stumpff functions with the statements outside the loop.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -243,7 +244,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A matrix to leading order in h is computed before the loop.
+        # If ``leading`` is true, Newton's matrix is computed before the loop. Otherwise the loop computes it.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -290,7 +291,7 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the rewritten assignments and values of a nested block."""
+        """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
         # The block may be skipped at run time, so no later statement may use its names.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
@@ -322,8 +323,8 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # The symbol ``value`` already names this result of a call. In later expressions it replaces the
-        # symbol ``let.name``.
+        # If ``value`` is the symbol of a result of a call, no new name is needed. Later expressions then use
+        # this symbol in place of ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -335,7 +336,11 @@ class _Scope:
         return pending
 
     def rewrite(self, root: Expr) -> Expr:
-        """Return ``root`` with names in place of Stumpff calls and of powers that are written as products."""
+        """Return ``root`` in printable form.
+
+        Calls of functions with several results become names, and powers become products. The statements that
+        define new names are added to ``pending``.
+        """
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:

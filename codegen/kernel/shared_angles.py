@@ -53,7 +53,8 @@ class SharedArguments(ExprDomain):
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # Explicit stages have arguments with thousands of nodes, so the walk stops early.
+        # In explicit stages, arguments of Stumpff functions may have thousands of nodes. The walk stops as
+        # soon as it exceeds the limit.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
@@ -64,6 +65,6 @@ class SharedArguments(ExprDomain):
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # A new polynomial: later equal arguments are replaced by this one.
+        # The polynomial is new. Later arguments with an equal polynomial are replaced by this argument.
         self.arguments.append((polynomial, argument))
         return argument

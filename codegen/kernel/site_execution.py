@@ -37,9 +37,10 @@ class Content:
 
     - ``about`` describes the sweep.
     - ``stored`` contains pairs (rows, variable that is stored in these rows).
-    - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces the unknowns by g(u).
-    - ``measured`` are two rows, for the largest change and the largest absolute value of an unknown at each
-      site.
+    - ``unknowns`` are the unknowns u of equations u = g(u). Without Newton's method, the sweep replaces the
+      unknowns by g(u).
+    - ``measured`` is empty or contains two rows. At each site, the first row stores the largest change of an
+      unknown, and the second row stores the largest absolute value.
     """
 
     about: str
@@ -49,7 +50,7 @@ class Content:
 
 
 def blocks_of(problem: Problem) -> tuple[slice, ...]:
-    """Return the slice of coordinates that belongs to each block of a state."""
+    """Return one slice for each block of a state. The slice selects the coordinates of the block."""
     ends = tuple(accumulate(len(block.symbols) for block in problem.state))
     return tuple(slice(first, last) for first, last in zip((0, *ends), ends, strict=False))
 
@@ -115,7 +116,7 @@ class Execution:
         for target, value in zip(assign.targets, results, strict=True):
             self.env[target] = value
             for k, x in enumerate(flatten(target.kind, value)):
-                # An expression keeps its first name.
+                # If several variables have the same expression as a value, the first variable gives the name.
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _evaluated(
@@ -138,7 +139,7 @@ class Execution:
         if isinstance(operation, Energy):
             # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # ``operation.evaluate`` differentiates the energy at a point of symbols, so the results are formulas.
+        # The energy is differentiated at a point whose coordinates are symbols, so the results are formulas.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -158,7 +159,10 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the values of all symbols in the formulas of the scene, at a site and at its neighbours."""
+        """Return a value for each symbol in the formulas of the scene.
+
+        Some symbols denote values at the site, and the other symbols denote values at its neighbours.
+        """
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -185,8 +189,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # New names are needed in two cases: the variable does not belong to the old state, or an earlier load
-        # uses one of these names with another ghost.
+        # New symbols are needed in two cases: the variable does not belong to the old state, or one of these
+        # symbols already has another ghost.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -196,8 +200,10 @@ class Execution:
         return unique_name(base, self.taken)
 
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
-        """Return the sweep with the given content. ``sums`` contains the name of each sum over all sites, and
-        the row of its terms.
+        """Return the sweep that stores the variables in ``content``.
+
+        ``sums`` contains a pair (name, row) for each sum over all sites. The terms of the sum are in this
+        row.
         """
         # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
@@ -206,14 +212,14 @@ class Execution:
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
-        # Only neighbours that the formulas read need a replacement outside the lattice.
+        # Ghosts are needed only for neighbours that the formulas read.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
             # The ghosts are listed in the order of ``loads``, because a set has no fixed order.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
-            # The formulas of the ghosts also read numbers of the site, so these numbers are loaded, too.
+            # The formulas of the ghosts may read further values at the site. These values are loaded, too.
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)
@@ -235,7 +241,9 @@ def kernel_of_sweep(
     taken: set[str],
     totals: tuple[str, ...] = (),
 ) -> Kernel:
-    """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
+    """Return the kernel that computes the expressions ``ends``.
+
+    The symbols ``symbols`` denote the numbers that the sweep reads.
 
     ``hints`` maps the ids of expressions to preferred names. ``taken`` contains the names in use, and this
     function adds the new names. ``totals`` are the names of sums over all sites.
