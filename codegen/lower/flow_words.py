@@ -278,7 +278,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # Any summand that does not depend on t can be the carrier, and the order of the method is always the
+        # The carrier can be each summand that does not depend on t, and the order of the method is always the
         # same. The first of these summands is chosen.
         if not summand.timed:
             return summand

@@ -20,7 +20,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function accepts figures of one class only. The type Any permits a different class for each function.
+# Each function accepts figures of one class only. This type permits a different class for each function.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
