@@ -83,7 +83,8 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
-        # Block k of the formulas is the generator of site k of the pair. It is constant along the flow.
+        # The formulas consist of one block for each site of the pair. Block k is the generator of site k. The
+        # generator is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}

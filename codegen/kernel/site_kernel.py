@@ -2,8 +2,8 @@
 
 The field reads the states of neighbours. All other operations of a step program act on one site alone.
 Therefore one sweep stores the points at which the field is evaluated, and the next sweep evaluates the field.
-If storing a sum of vectors makes it unnecessary to store one of its terms, the sum is stored. All other sums
-are computed again from stored terms.
+A sum of vectors is stored if one of its terms then need not be stored. All other sums are computed again from
+stored terms.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
     """Return the error for a method whose step cannot be computed by sweeps over sites.
 
-    ``what`` says why, and ``expected`` says what is accepted instead.
+    ``what`` is the reason, and ``expected`` describes the methods that are accepted.
     """
     hint = "use a method of another family, for example cf:cf4 or splitting:strang"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)

@@ -34,13 +34,13 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """Differentiates the images g of one block of equations u = g with respect to the unknowns of three
-    sites.
+    """Differentiates the images g of one block of equations u = g. The derivatives are taken with respect to
+    the unknowns of a site and of its left and right neighbours.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` are the variables of the old state.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
+    - ``coupled`` contains the index of each block of the state whose values at neighbours enter the field.
     """
 
     problem: Problem
@@ -58,8 +58,7 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains four numbers. The first one is the number of unknowns of a site. The others are
-        the first rows of the residuals, the border and the matrix in the workspace.
+        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.
@@ -82,16 +81,18 @@ class Linearisation:
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
-            # A missing neighbour has no columns in ``row``, and its block consists of zeros.
+            # If the field does not read a neighbour, ``row`` has no columns for this neighbour. The entries
+            # of the matrix are then zero.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The matrix is 1 - g', so the unit matrix belongs only to the block of the site itself.
+                    # The matrix is the unit matrix minus the derivative of g. The unit matrix occurs only in
+                    # the block of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
-        # The derivatives read fewer numbers than the images, so unused loads are left out.
+        # ``self.loads`` contains all numbers in the images. Only those that the derivatives read are kept.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
         loads = tuple(load for load in self.loads.values() if load.symbol in read)
         residual, border, matrix = first
@@ -157,8 +158,8 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
-        # The field at a neighbour also reads the next neighbour, so the matrix would not be
-        # block-tridiagonal.
+        # The field at a neighbour also reads the next neighbour. If the field at a neighbour were permitted
+        # here, the matrix would not be block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
@@ -179,11 +180,11 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
-                    # The expression g + exists (x - g) is the ghost g for exists = 0, and the value x of the
-                    # neighbour for exists = 1.
+                    # If the neighbour exists (``exists`` is 1), the result is its value x. If it lies outside
+                    # the lattice (``exists`` is 0), the result is the value g that replaces x.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # In the formulas of the field, the symbols of the neighbour get the values of the neighbour's
-                # stage.
+                # The formulas of the field contain symbols for the coordinates of neighbour k. These symbols
+                # get the values of the stage at this neighbour.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

@@ -38,7 +38,9 @@ absolute value of an unknown.
 
 @dataclass
 class _Needs:
-    """The variables that one sweep computes, reads at its own site, and reads at neighbours."""
+    """Three sets of variables: those that a sweep computes (``computed``), those that it reads at the site
+    itself (``loaded``), and those that it reads at neighbours (``around``).
+    """
 
     computed: set[Var] = field(default_factory=set)
     loaded: set[Var] = field(default_factory=set)
@@ -56,7 +58,8 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return the unknowns that the sweep with the index ``number`` sets, as pairs (unknown, new value).
 
-        The sweep before the block sets starting values. The last sweep of the block sets the new values.
+        The sweep before the first iteration sets the starting values. The last sweep of an iteration sets the
+        images.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -96,11 +99,12 @@ class Planner:
             roots += [value for block in self.blocks for _, value in block.copies(number)]
             need = needs[number]
             self._require(number, need, [*roots, *(outputs if number == last else ())])
-            # The last sweep of an iteration measures how much the unknowns change, so it reads their old
-            # values.
+            # The last sweep of an iteration compares the new values of the unknowns with the old values, so
+            # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # Newton's method measures its own corrections, so its sweeps need no rows for the stopping rule.
+        # Only fixed-point iteration needs rows for the stopping rule. The solver of Newton's method measures
+        # its corrections itself.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -123,8 +127,8 @@ class Planner:
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # The rows of the solver follow the rows of stored values: residuals, border (periodic chains only),
-        # and matrix.
+        # After the rows in use, the workspace contains the residuals, the border (for periodic chains only),
+        # and the matrix. :class:`codegen.ir.site_step.SiteNewton` defines the border.
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
@@ -142,13 +146,13 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows,
-        # because the blocks are solved one after the other.
+        # For each site, the workspace contains three square submatrices. The matrices of different equations
+        # use the same rows, because the equations are solved one after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """The indices of the blocks of the state that the field reads at neighbours."""
+        """The indices of the blocks of the state whose values at neighbours enter the field."""
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -182,8 +186,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours, so a separate sweep replaces the unknowns after
-                # all sites have read them.
+                # Sites read the unknowns of their neighbours. Therefore the unknowns are replaced by their
+                # images in a separate sweep, after all sites have read them.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # After the iteration the unknowns contain the images, so later statements read the unknowns.
@@ -191,7 +195,7 @@ class Planner:
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return a block that reads the unknowns of earlier blocks in place of their images."""
+        """Return ``solve`` with each image of an earlier block replaced by the unknown with this image."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -207,7 +211,8 @@ class Planner:
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
-            # The terms of all sites are added after the sweep that stores them.
+            # One sweep stores the terms of all sites. The sum is known after this sweep, so only later sweeps
+            # can read it.
             ((target,), (term,)) = assign.targets, assign.args
             self.sweep_of[target] = max(least, self.sweep_of[term]) + 1
             self.totals[target] = assign
@@ -217,7 +222,7 @@ class Planner:
             self.makers[target] = assign
 
     def _terms(self, number: int) -> list[Var]:
-        """Return the terms of those sums over all sites that are computed after the sweep ``number``."""
+        """Return the terms of those sums over all sites that are added after the sweep ``number``."""
         return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
 
     @cached_property
@@ -230,10 +235,10 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        A sum is stored if the same sweep computes one of its terms, and if no other assignment reads this
-        term. The term itself is then not stored. With this rule a 2N scheme (a low-storage Runge-Kutta
-        method) stores only one element of the Lie algebra. In programs with implicit equations no sums are
-        stored.
+        A sum is stored if one sweep computes both the sum and one of its terms, and if no other assignment
+        reads this term. The term itself is then not stored. With this rule a 2N scheme (a low-storage
+        Runge-Kutta method) stores only one element of the Lie algebra. In programs with implicit equations no
+        sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -250,7 +255,7 @@ class Planner:
                 self.sums.add(target)
 
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
-        """Add to ``need`` the variables that a sweep needs to compute ``roots``."""
+        """Add to ``need`` all variables that the sweep ``number`` computes or reads to obtain ``roots``."""
         waiting = list(roots)
         while waiting:
             var = waiting.pop()
@@ -278,8 +283,8 @@ class Planner:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # Each iteration reads the values that the block does not compute, so the rows of these values
-                # stay occupied until the block ends.
+                # Every iteration reads this value, but no iteration computes it. Its rows must not be
+                # overwritten before the last iteration ends.
                 used[var] = max(used[var], block.last + 1)
         return used
 
@@ -292,14 +297,15 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # Suppose that no later sweep reads a value. This sweep may overwrite the value if it does not
-            # read the value at neighbouring sites.
+            # A value may be overwritten by the last sweep that reads it. If this sweep reads the value at
+            # neighbouring sites, only the next sweep may overwrite it.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # Sorted rows make the layout of the workspace the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before a block sets the first values of its unknowns, so their rows are reserved here.
+            # The sweep before a block stores the starting values of the unknowns, so it reserves rows for the
+            # unknowns.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:
@@ -361,7 +367,7 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # With Newton's method this sweep stores residuals, and the solver changes the unknowns.
+            # With Newton's method this sweep stores residuals. The solver then changes the unknowns.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

@@ -1,12 +1,13 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
-The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta. Here g is a
-covector near the differential of the energy, and eta is the displacement of a step. The energies before and
-after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. Each
-site computes its share of H1 - H0 - <g, eta> before the shares are added. The shares are small, so little
-accuracy is lost. If the equations are not Hamilton's equations, the field f is expressed by the bivector
-(gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. This bivector contains three further
-sums over all sites (:mod:`codegen.scene.energy`).
+The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. Here g
+is a covector near the differential of the energy, and eta is the displacement of a step. The energies before
+and after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its
+share of e before the shares are added. The shares are small, so the sum e has a small rounding error.
+
+If the equations are not Hamilton's equations, the field f is expressed by the bivector
+(gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. Three further sums over all sites
+are needed to apply this bivector to a covector (:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
     """Return the assignments that replace ``assign``. The last of them sets the targets of ``assign``."""
 
-    # A sum needs two operations: one at each site, and one over all sites.
+    # An inner product needs two operations: one at each site, and one that adds the results of all sites.
     def total(name: str, x: Var, y: Var) -> Var:
         return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))
 
@@ -58,7 +59,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # The excess of a site is its share of H1 - H0 - <g, eta>.
+        # The excess of a site is the change of its energy minus the linear prediction <g, x> of this change.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):
@@ -68,5 +69,5 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         operation, args = Wedge(), (gamma, f, *sums)
     else:
         return (assign,)
-    # The targets of the assignment do not change, so later statements need no change.
+    # The last assignment keeps the targets of ``assign``, so later statements can read them as before.
     return (*build.take(), replace(assign, operation=operation, args=args))

@@ -43,10 +43,10 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store, by the ids of their nodes.
+    """The expressions that sweeps store. Each attribute is a dictionary with the ids of expressions as keys.
 
-    - ``writer`` contains the number of the sweep that stores an expression.
-    - ``last`` contains the number of the last sweep that reads it.
+    - ``writer`` contains the number of the sweep that stores the expression.
+    - ``last`` contains the number of the last sweep that reads the expression.
     - ``nodes`` contains the expression itself.
     """
 
@@ -115,20 +115,21 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of one Taylor coefficient of the state, and the formulas that replace the
-        coefficient at neighbours outside the lattice.
+        """Record the loads of one Taylor coefficient of the state.
+
+        A neighbour may lie outside the lattice. For this case, formulas for its coefficient are recorded.
         """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
-                    # None means that a term is identically zero. The number zero replaces it.
+                    # A term that is None is identically zero, so the formula is the number zero.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients ``terms`` of a degree, with the number zero in place of None if needed.
+        """Return ``terms``. If neighbours outside the lattice require it, the number zero replaces None.
 
         None represents a coefficient that is zero at all sites. No sweep loads such a coefficient. If the
         coefficient may differ from zero at a neighbour outside the lattice, sweeps must load it. Then the
@@ -141,11 +142,12 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if coefficients of coordinate k that are zero at all sites are also zero outside the
-        lattice.
+        """Return True if coordinate k of a neighbour outside the lattice is constant, or equal to coordinate
+        k of the site.
 
-        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. The result is True if
-        this coordinate is constant, or equal to coordinate k of the site.
+        ``ghost`` is the formula for this coordinate of the neighbour. Suppose that the result is True, and
+        that a Taylor coefficient of coordinate k is zero at all sites. Then the coefficient is also zero
+        outside the lattice.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -155,7 +157,7 @@ class TaylorSweeps:
         every: list[Row] = []
         own: list[str] = []
         for s, x in zip(self.symbols, terms, strict=True):
-            # The empty name marks a coefficient that is zero, which needs no row and no symbol.
+            # A coefficient that is zero needs no row and no symbol. An empty name marks this case.
             own.append("" if x is None else unique_name(f"{s}_d{degree}", self.taken))
             every.append(Row(WORK, self.rows))
             if x is not None:
@@ -191,9 +193,10 @@ class TaylorSweeps:
         return [x for _, var in self.program.outputs for x in env[var]]
 
     def _polynomial(self) -> tuple[Expr, ...]:
-        """Return the Taylor polynomial of each coordinate, which is the sum of all its coefficients.
+        """Return the value of the Taylor polynomial of each coordinate at the end of the step.
 
-        The old state is the largest term. It is added last, so that the rounding error is small.
+        Coefficient n includes the factor h^n, so the value is the sum of all coefficients. The old state is
+        the largest term. It is added last, so that the rounding error is small.
         """
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
@@ -210,7 +213,8 @@ class TaylorSweeps:
             for node in walk(roots):
                 # The first sweep that computes an expression also stores it.
                 first.setdefault(node.id, n)
-        # A value that is the same at all sites is never stored, because it needs no row of numbers.
+        # A row contains one number for each site. A value that is the same at all sites is not stored in a
+        # row.
         local = self._local([x for roots in ends for x in roots])
         stored, work = _Stored(), dict[int, int]()
         for n, roots in enumerate(ends):
@@ -228,7 +232,7 @@ class TaylorSweeps:
         return stored
 
     def _local(self, roots: Sequence[Expr]) -> set[int]:
-        """Return the ids of the expressions that depend on numbers that are stored for each site."""
+        """Return the ids of the expressions that depend on a number in ``self.loads``."""
         local: set[int] = set()
         for node in walk(roots):
             if (node.op == "sym" and node.payload in self.loads) or any(a.id in local for a in node.args):
@@ -252,7 +256,9 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. In each sweep, values that later sweeps read come after all other outputs."""
+        """Return the sweeps. The last outputs of each sweep are the expressions in ``stored`` that it stores
+        for later sweeps.
+        """
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
@@ -300,7 +306,7 @@ class TaylorSweeps:
         loads = tuple(load for s, load in self.loads.items() if s in read)
         about = f"Taylor coefficients of degree {n + 1}"
         if n + 1 == self.degree:
-            about += ", the sum of all coefficients, and the operations on this sum"
+            about += ", the sum of all coefficients, and the new state"
         return Sweep(about, kernel, loads, stores, outside)
 
     def _kernel(self, ends: list[Expr]) -> Kernel:

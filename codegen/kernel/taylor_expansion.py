@@ -49,7 +49,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel with its Taylor expansion.
+    """Return the kernel with an expansion, which computes the Taylor coefficients of the solution.
 
     The emitted code then contains an additional function for a run with step-size control.
     """
@@ -79,7 +79,7 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates in which the Taylor polynomial is computed"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
-    # Both kernels take new names from one function, so that names in the loop differ from earlier names.
+    # The kernels ``first`` and ``following`` share the function ``name``, so their new names differ.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
     # For each product of two series, ``left`` and ``right`` contain coefficient n of its factors.
@@ -92,7 +92,8 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # Step-size control chooses h from the coefficients, so the polynomial is in powers of t and not of t/h.
+    # Step-size control needs the coefficients before h is known. Therefore they are coefficients of powers of
+    # t, without factors h^n.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     # None means that a coefficient is identically zero. The outputs are the coefficients of degree 1 of
     # all coordinates, then the coefficients of degree 2, and so on.

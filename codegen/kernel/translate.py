@@ -52,7 +52,7 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 
 - AS_WRITTEN leaves the operations unchanged.
 - COMBINED multiplies step sizes and constants first.
-- ORDERED sorts the assignments by the time at which their values are ready.
+- ORDERED sorts the assignments by the estimated time at which a processor has computed their values.
 - SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
 """
 
@@ -74,7 +74,8 @@ def to_kernel(
     - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
     - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
       without implicit equations.
-    - If ``whole`` is true, the step itself transforms the momentum to the frame of the emitted code
+    - If only the program uses the body frame, a run transforms the momentum once at its beginning and once at
+      its end. If ``whole`` is true, each step transforms the momentum instead
       (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
@@ -116,8 +117,8 @@ class _Translation:
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # A kernel with variations is the derivative of one complete step, so the step converts the momentum
-        # itself.
+        # With variations, the kernel contains the derivative of a step in the frame of the emitted code.
+        # Therefore each step, and not the run, converts the momentum.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
@@ -132,7 +133,7 @@ class _Translation:
     def remember(self, var: Var) -> None:
         """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # An expression keeps its first name.
+            # If an earlier variable has named the expression, this name is kept.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
@@ -140,7 +141,8 @@ class _Translation:
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
-            # A sum of functions of ad_x costs less in nested form.
+            # ``nested`` is the value of a sum of functions of ad_x in nested form, or None if nesting saves
+            # nothing.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -152,11 +154,12 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # The arguments are treated as symbols. If they were expanded, their terms would no longer be
-            # shared.
+            # ``gathered`` treats the arguments as symbols. If the arguments were expanded, other expressions
+            # could no longer share their terms.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # Outlined functions accept only numbers, so they cannot sample run-time inputs.
+        # An operation with a time argument may sample the run-time inputs. It cannot be outlined, because
+        # the arguments of an outlined function are numbers.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is not in the list yet, so its index is the length of the list.
         place = len(self.blocks) if self.inside else -1
@@ -180,16 +183,18 @@ class _Translation:
 
     def solve(self, statement: Solve) -> None:
         """Execute the body of a block of equations, and add the block to ``blocks``."""
-        # Outlining must not join assignments of the body with other assignments.
+        # While ``inside`` is true, ``run`` records assignments as part of this block. Outlining never joins
+        # them with assignments outside the block.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # With variations, the images g(u) are differentiated, so they are not replaced by residuals.
+        # With variations, :func:`_varied` differentiates the equations u = g(u), so the block keeps its
+        # images g(u). Otherwise residuals may replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # For residuals a first-order matrix suffices, which costs less than the exact matrix.
+        # A block with residuals already contains a matrix of Newton's method, to first order in h.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
@@ -222,17 +227,17 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method. The program must have been
-        executed.
+        """Return the new state, and the new state of the embedded method. The caller executes all statements
+        of the program first.
 
-        The second state is () if the method has no embedded method.
+        The second state is () if the program computes no embedded solution.
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # The difference of both states is the error estimate, so both are transformed to the same frame.
+        # The error estimate is the new state minus the embedded solution, so both are transformed to the same
+        # frame.
         for embedded in (False, True):
-            # The result is () if the method has no embedded solution, because no output has the name
-            # EMBEDDED.
+            # Without an embedded solution, no output has the name EMBEDDED. Then ``values`` is empty.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
@@ -251,7 +256,8 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations use values at the solution of a block, so they follow the block.
+        # The equations for the variations of a block contain the solution of this block. Therefore they are
+        # solved after the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -272,7 +278,7 @@ class _Translation:
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
         # The error estimate is the new state minus the new state of the embedded method.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # Error estimates share assignments with outputs.
+        # Outputs and error estimates are ordered together, so that they can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
         # LEAD is the duration of the flow that is joined with the first flow of the next step. ELAPSED is the
         # duration of all steps of a run.
@@ -293,15 +299,16 @@ class _Translation:
 
         Repeated computations become functions if the code is then much shorter.
         """
-        # A schedule with outlined functions may replace ``schedule``, and may then use the same names.
+        # Outlining may replace ``schedule`` by a new schedule below. The names of the old schedule are then
+        # free again, so the names in use before it are saved.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
-        # Assignments are counted, because lines of code fill the instruction cache.
+        # The number of assignments is a measure of the code size. Only long code is outlined.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining replaces the results of repeated operations by calls. COMBINED and SHORTENED rewrite the
-        # expressions, which then do not contain these results any more.
+        # Outlining searches the expressions for the results of repeated operations. COMBINED and SHORTENED
+        # have rewritten the expressions, so outlining would not find these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -323,7 +330,7 @@ def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
             total += 1
             continue
         total += len(statement.body)
-        # The assignments of Newton's matrix are code of the loop, too.
+        # For Newton's method, the code of the loop includes the assignments of the matrix.
         if isinstance(statement, Loop) and statement.newton is not None:
             total += len(statement.newton.body)
     return total
@@ -336,18 +343,19 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step with outlined functions, and the functions.
+    """Return a schedule that calls outlined functions, and the list of these functions.
 
     The schedule is None if nothing repeats.
     """
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # A value in ``kept`` that no root reads is removed. Otherwise a function that only computes this value
-    # would count as used.
+    # A value in ``kept`` is removed if no expression in ``flat`` reads it. Otherwise a function that only
+    # computes this value would count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # All roots are in one list, so that trees that occur in several blocks are found.
+    # The expressions of all blocks are in one list. Therefore outlining also finds computations that are
+    # repeated in different blocks.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
@@ -374,7 +382,7 @@ def _outlined(
     schedule.run()
     functions = []
     for function in outline.outlined:
-        # Each function is scheduled separately: its inputs are symbols, and it has no blocks.
+        # Each function has a schedule of its own, without blocks of equations. Its inputs are symbols.
         own = Assignments((), function.outputs, {}, name)
         lets = own.run()
         functions.append(
@@ -392,14 +400,18 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     # old state and of the unknowns of earlier blocks.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The equations are linear, so they may start from zero.
+    # The equations are linear, so the convergence does not depend on the starting values. The iteration
+    # starts from zero.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with the samples that it reads. A sample contains all run-time inputs at one time."""
-    # The compiler passes may have removed every use of a sample. Such samples are dropped.
+    """Add samples of the run-time inputs to the kernel. A sample contains all run-time inputs at one time.
+
+    Only samples that the kernel reads are added.
+    """
+    # The compiler passes may have removed all expressions that read a sample.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

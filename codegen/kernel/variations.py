@@ -2,7 +2,7 @@
 
 A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). For all
 other values, such as momenta, each component is varied independently. For example, the Jacobian is a 6 x 6
-matrix on T*SO(3), and a 3 x 3 matrix on the sphere.
+matrix on T*SO(3). On the sphere it is a 3 x 3 matrix, because a point of the sphere has three components.
 """
 
 from __future__ import annotations
@@ -21,17 +21,19 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a state. Each part is a pair of a group and of the symbols of its coordinates.
+    """The parts of a state. Each part is a pair (group, symbols), where the symbols denote the coordinates of
+    the part.
 
-    If the group is None, each coordinate is varied independently of the others.
+    If the group is None, each coordinate is varied independently.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the parts of the state of a problem. SceneError is raised if its group has no right
-        trivialisation.
+        """Return the parts of the state of ``scene``.
+
+        SceneError is raised if the state contains an element of a group without right trivialisation.
         """
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
@@ -55,8 +57,8 @@ class Variations:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the components of a variation, which differ from all names of a scene."""
-        # Names of a scene are identifiers, which contain no dot.
+        """The names of the components of a variation."""
+        # These names contain a dot, so they differ from the names of a scene, which are identifiers.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
@@ -68,18 +70,20 @@ class Variations:
             # The components of a variation are consecutive, in the order of the parts.
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
-            # The equation dq = xi.q gives the derivatives of the coordinates.
+            # For a group element q and a variation xi, ``velocity`` computes the derivative dq = xi.q.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of the new state, given the derivatives of its coordinates."""
+        """Return the variation of the new state ``state``. ``rates`` are the derivatives of the coordinates
+        of this state.
+        """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # ``rate`` is the inverse of ``velocity`` on tangent vectors.
+            # ``rate`` returns the element xi of the Lie algebra with v = xi.g.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
@@ -98,7 +102,7 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return the right trivialisation of a group. For plain numbers, ``group`` and the result are None.
+    """Return the right trivialisation of ``group``, or None if ``group`` is None.
 
     SceneError is raised if the group has no right trivialisation.
     """

@@ -50,7 +50,8 @@ def optimise(
     """Return the program after all passes, and a report of each pass that changed the program.
 
     ``program`` is the program of a step for the problem ``scene``. If ``framed`` is True, the equations are
-    rewritten in the body frame at the start of the step (:mod:`codegen.passes.body_frame`).
+    rewritten in the body frame of the group element at the start of the step
+    (:mod:`codegen.passes.body_frame`).
     :class:`Optimiser` explains ``composed``.
     """
     work = Optimiser(program, scene, composed)
@@ -77,7 +78,8 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # All further passes rewrite one substep only, so the reference is the result of one substep.
+            # All further passes rewrite the statements of one substep. From here on, the results of each new
+            # program are compared with the results of one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -116,21 +118,21 @@ class Optimiser:
 
 
 def _part(program: Program) -> Program:
-    """Return the program of one substep of a composition, as the program of a complete step."""
+    """Return ``program`` without its list of substeps. A step of the result is one substep."""
     return replace(program, substeps=())
 
 
 def plain_passes(scene: Problem) -> list[Pass]:
     """Return the passes that apply to every scene, in order."""
     abelian_group = scene.group.abelian
-    joined = "two flows of one part are joined if they commute with all flows between them"
-    vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
+    joined = "two flows of one term of H are joined if they commute with all flows between them"
+    vanish = "the group is abelian" if abelian_group else "dexpinv is the identity at truncation order 0"
     return [
         # This pass comes first: it replaces brackets by zeros, and the next pass removes zeros from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # Value numbering gives equal right-hand sides one variable, so this pass must follow value numbering.
+        # This pass must follow value numbering, which replaces equal right-hand sides by a single variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
@@ -171,8 +173,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps, which may cancel other maps.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass must follow the Legendre transform. Otherwise the force of a stage would depend on the
-        # unknown momentum of the stage, and would remain an unknown.
+        # This pass removes the force of a stage from the unknowns if the force does not depend on the unknown
+        # momentum of the stage. The Legendre transform removes this dependence, so it must come first.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -180,11 +182,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # This pass removes a reader of exp(x), and the next pass requires that exp(x) has only one reader.
+        # If another operation reads exp(x), the next pass may keep the adjoint operation of exp(x). Therefore
+        # this pass first removes a product that reads exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass adds residuals, each of which compares two formulas for a momentum. It follows the pass
-        # for functions of ad, so that it can choose the momentum that needs the fewest operations.
+        # This pass adds residuals. Each residual compares two formulas for a momentum. The pass follows the
+        # pass for functions of ad, so that it can choose the momentum that needs the fewest operations.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
@@ -201,6 +204,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # Some of the passes above would multiply the factor -1 into a sum again, so this pass is the last.
+        # This pass takes the factor -1 out of sums. Other passes would multiply it into the sums again, so
+        # this pass is the last.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -1,4 +1,4 @@
-"""Remove operations that are the identity or zero, because their brackets vanish.
+"""Remove operations that are the identity or zero because Lie brackets vanish.
 
 The pass is exact. On an abelian group all brackets vanish. Then dexp^{-1}, dexp* and the adjoint operations
 are the identity, and ad is zero. If dexp^{-1} is truncated at order 0, it contains no brackets, and it is the
@@ -33,7 +33,8 @@ def run(program: Program, abelian: bool) -> Program:
             # The operation is the identity on its last argument, so the last argument is the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The result is the operation Zero, because the pass for zeros does not recognise an empty sum.
+            # Zero could also be written as a sum without terms, but the pass for zeros recognises only the
+            # operation Zero.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

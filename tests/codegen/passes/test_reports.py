@@ -61,4 +61,4 @@ def test_brackets_vanish_on_an_abelian_group_and_the_header_says_so():
 def test_on_another_group_the_reason_is_the_cut():
     scene, before = lowered("rkmk", "rk4", field_scene("S^2"), 0)
     _, reports = optimise(before, scene)
-    assert summaries(reports)[0] == "4 evaluations of dexpinv: dexpinv is truncated before its first bracket"
+    assert summaries(reports)[0] == "4 evaluations of dexpinv: dexpinv is the identity at truncation order 0"
