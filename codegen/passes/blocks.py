@@ -3,9 +3,10 @@
 The components are solved one after the other.
 
 The pass is exact. An edge of the graph leads from each assignment to every assignment that reads one of its
-values. The image of an unknown is the right-hand side of its fixed-point equation. An assignment that reads
-an unknown counts as a reader of the image. A component without a cycle becomes assignments outside blocks. A
-component with a cycle becomes a smaller block. Explicit methods therefore need no solver.
+values. The image of an unknown is the right-hand side of its fixed-point equation. If an assignment reads an
+unknown, an edge leads to it from the assignment that computes the image. A component without a cycle becomes
+assignments outside blocks. A component with a cycle becomes a smaller block. Explicit methods therefore need
+no solver.
 """
 
 from __future__ import annotations
@@ -30,18 +31,18 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements that replace a block, in the order in which they are executed.
+    """Return the statements that replace a block, in order of execution.
 
-    ``names`` maps each unknown of the block to the variable that replaces it in later statements.
+    The function adds each unknown of the block to the dictionary ``names``, with the variable that replaces
+    the unknown in later statements.
     """
     # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
-    # A starting value may be an unknown of an earlier block. Then the variable that replaces this unknown in
-    # later statements is used.
+    # If a starting value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes are positions in the body, whose order is the same in every run.
+    # A node is the index of an assignment in the body, so the order of the nodes is the same in every run.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # Assignments without an edge are components, too.
@@ -53,8 +54,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # In a component, the assignments keep their order. An assignment depends on later assignments only
-    # through unknowns, whose values come from the previous sweep.
+    # In a component, the assignments keep their order. An assignment may read an unknown whose image is
+    # computed later. Then the unknown has its value from the previous sweep.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # The order closest to the old program is chosen, so that emitted text changes little.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
@@ -62,20 +63,20 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown belongs to the component that computes its image, if this component reads the unknown.
+        # A component is solved for the unknowns that it reads and whose images it computes.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # A component to which no unknown belongs has no cycle, and its assignments need no block.
+        # A component without unknowns has no cycle, and its assignments need no block.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # The old block has no residuals, because :mod:`codegen.passes.legendre` adds them after the last
-        # split.
+        # The block that is split has no residuals, because the pass :mod:`codegen.passes.legendre` adds
+        # residuals after the last split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     # Later statements read the image, which equals the unknown at the solution.
     names.update(image)
@@ -85,8 +86,9 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return, for each unknown, a value that is not itself an unknown of the block.
 
-    The value is the image of the unknown. If the image is another unknown, the image of this other unknown is
-    used, and so on. If such a chain of unknowns is closed, the value is the start value of the unknown.
+    The value is the image of the unknown, that is, the right-hand side of its equation. If the image is
+    another unknown, the image of this other unknown is used, and so on. If this search returns to an earlier
+    unknown, the value is the start value.
     """
     result = {}
     for unknown in image:
@@ -94,15 +96,15 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # A closed chain, such as v = w and w = v, does not determine the value, so the start value is taken.
+        # A cycle, such as v = w and w = v, does not determine the value, so the start value is used.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself are not replaced by images, because the assignments would then form
-        # a cycle.
+        # The unknowns of the new block, ``kept``, are not replaced by their images, because the assignments
+        # would then form a cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

@@ -9,16 +9,16 @@ The pass is exact. Every value is transformed by q^{-1}:
 
 The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass does not change them.
 
-Only the evaluation of the scene is replaced. This evaluation computes the velocity and the force of a stage
-at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame at the position Q,
-the momentum is P = Ad*_E~ M, and :mod:`codegen.scene.body_frame` defines the velocity W(Q, P) and the force
-N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force is Ad*_{E~^-1} N(Q, P). The
-equations of a block now read only those coordinates of q that W and N read.
+One operation is replaced: the evaluation of the derivatives of the Hamiltonian. It computes the velocity and
+the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame
+at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame` defines the
+velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force
+is Ad*_{E~^-1} N(Q, P). The equations of a block now read only those coordinates of q that W and N read.
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 
-A program is not changed if the scene has no body frame, or if the program contains another operation that
-does not commute with the transformation.
+A program is not changed if the scene has no body frame. It is also not changed if any other operation of the
+program does not commute with the transformation.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The state must be a pair of a group element q and a momentum mu, because q defines the body frame.
+    # The state must consist of a group element q, which defines the body frame, and a momentum mu.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
@@ -96,10 +96,12 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # If a position is an unknown, the frame of its stage is unknown, and the pass is not applied.
+            # If a position Q = E q is an unknown of a block, no variable contains its factor E, and the pass
+            # is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The initial values of the unknowns are renamed before the body of the block defines new values.
+            # The initial values of the unknowns are computed before the block. Therefore their variables are
+            # replaced before the body is visited.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -110,14 +112,15 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # A program with an embedded solution is not rewritten, because its step ends at two positions with
-        # different body frames.
+        # A program with an embedded solution is not rewritten. It returns two positions, and their body
+        # frames differ.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # Let q' be the new position. In the new program the variable ``E`` is the factor E~ in q' = q E~. The
-        # map Ad*_{E~} transforms the momentum to the body frame at q', because Ad*_{q'} = Ad*_{E~} Ad*_q.
+        # Let q' = q E~ be the position at the end of the step. The new program computes E~ as the variable
+        # ``E``. The final momentum must be in the body frame at q'. Because Ad*_{q'} = Ad*_{E~} Ad*_q, the
+        # map Ad*_{E~} transforms the momentum from the body frame at q to the body frame at q'.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -137,11 +140,11 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # The product (E q)(E' q) does not have the form E'' q.
+            # The product (E q)(E' q) of two positions does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
-            # Let L be the element ``left``. Its product with the position E q is (L E) q, so the new factor
-            # is L E.
+            # Let L be the element ``left`` and let R q be the position ``args[1]``. Their product is the
+            # position (L R) q, and its factor E is L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
@@ -159,20 +162,21 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append the velocity Ad_E W(Q, P) and the force Ad*_{E^-1} N(Q, P) of a stage.
+        """Append the velocity and the force of a stage in the body frame at the start of the step.
 
-        Q = q E is the position of the stage. In the body frame at Q, the momentum is P = Ad*_E M, the
-        velocity is W(Q, P), and the force is N(Q, P). M is the momentum in the body frame at the start of the
-        step.
+        Let Q = q E be the position of the stage, and let M be its momentum in the body frame at the start of
+        the step. In the body frame at Q, the momentum is P = Ad*_E M, the velocity is W(Q, P), and the force
+        is N(Q, P). In the body frame at the start of the step, the velocity is Ad_E W(Q, P), and the force is
+        Ad*_{E^-1} N(Q, P).
         """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # For Q = q E the field needs the momentum Ad*_Q mu = Ad*_E (Ad*_q mu). The momentum M is already
-        # Ad*_q mu.
+        # Let mu be the momentum in space. Then M = Ad*_q mu, and P = Ad*_Q mu = Ad*_E (Ad*_q mu) = Ad*_E M.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # The adjoint maps of E transform W and N to the body frame at the start of the step.
+        # The adjoint maps of E transform W and N from the body frame at Q to the body frame at the start of
+        # the step.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -1,4 +1,4 @@
-"""Remove dead code: values from which neither the new state nor a needed unknown is computed.
+"""Remove dead code: values on which no output of the program depends.
 
 The pass is exact. An unknown that nothing reads is removed together with its equation. If nothing reads any
 unknown of a block, the block is dissolved: the assignments that are still needed are moved out of the block.

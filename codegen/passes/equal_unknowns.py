@@ -1,7 +1,8 @@
 """Unknowns with the same image (right-hand side of the fixed-point equation) are merged into one unknown.
 
-The pass is exact, because unknowns with the same image are equal at a solution. Stages with equal rows of
-coefficients have the same image after :mod:`codegen.passes.value_numbering` and become one stage.
+The pass is exact, because unknowns with the same image are equal at a solution. If two stages have the same
+coefficients, their unknowns have the same image after :mod:`codegen.passes.value_numbering`. The two stages
+then become one stage.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # Later blocks and outputs may read a removed unknown, so ``same`` is kept for the whole program.
+            # ``same`` maps each removed unknown to the unknown that replaces it. Later blocks and outputs may
+            # read removed unknowns, so ``same`` is kept for the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
             # The body reads the unknowns that are kept, so that value numbering can merge equal stages.

@@ -20,9 +20,9 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
+"""Step sizes to try. The largest is first, because a wrong rewriting has the largest effect in a long step.
 
-If the first step would move the state too far, all steps are shortened by the same factor.
+If the first step would exceed the bound :data:`REACH`, all step sizes are divided by the same power of two.
 """
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
@@ -33,9 +33,9 @@ even for a scene with a coefficient of 1e300.
 """
 
 REACH = 0.5
-"""An upper bound of h times the largest component of the field.
+"""An upper bound of the step size h times the largest component of the field.
 
-Longer steps would amplify rounding errors.
+Steps above this bound would amplify rounding errors.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
@@ -104,7 +104,7 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return a pair: True if the iteration has converged, and the last change of its values.
+        """Return a pair: whether the iteration has converged, and the size of its last change.
 
         NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
         """
@@ -115,7 +115,10 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """The results of steps of decreasing size from one state. Each step is computed when it is needed."""
+    """The results of steps that begin at the same state, sorted by decreasing step size.
+
+    Only the first result is computed at once. The others are computed when they are needed.
+    """
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -134,8 +137,8 @@ class Reference:
 
     The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
     symmetric position). The other point is near the initial state and has no symmetry. From each point, the
-    longest step with three properties is used: it moves the state by at most :data:`REACH` along the field,
-    its results are finite, and the iterations for its implicit equations converge.
+    longest step with three properties is used: it does not exceed :data:`REACH`, its results are finite,
+    and the iterations for its implicit equations converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -147,21 +150,19 @@ class Reference:
             raise _no_step(scene)
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield the results of the longest step from a state, then of shorter and shorter steps.
+        """Yield the results of steps that begin at the same state. The longest step comes first.
 
-        The steps begin at a state near the initial state if ``moved`` is True, and otherwise at the initial
+        If ``moved`` is True, the steps begin near the initial state. Otherwise they begin at the initial
         state.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
-        # A step moves the state by about h times the field. Therefore the steps are shorter if the field is
-        # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
         # Programs are compared by steps from two states. If the field is not finite at this state, only steps
         # from the other state are compared.
         if not math.isfinite(speed):
             return
-        # The longest step is too long by a factor of at most 2**excess.
+        # After a division of STEPS[0] by 2**excess, its product with ``speed`` is at most REACH.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -176,7 +177,10 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return an arithmetic with ``digits`` decimal digits for a step of size h, and the initial state."""
+        """Return an arithmetic with ``digits`` decimal digits for step size h, and the state at the start.
+
+        This state is near the initial state if ``moved`` is True. Otherwise it is the initial state.
+        """
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
         return domain, {name: state[name] for name in self.kinds}
@@ -185,15 +189,16 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step of a program, or None if the step cannot be computed."""
-        # The solutions of the blocks are stored, because the iterations of a compared program start from
-        # these solutions.
+        # The solutions of the implicit equations are stored. When another program is compared with this one,
+        # its iterations start from these solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Very large results are excluded, because partial sums of the compared program may overflow.
+        # Very large results are excluded. Another program with the same results may add in another order, and
+        # its partial sums may overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
@@ -233,7 +238,7 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Return the difference of the programs in the longest step that can be compared.
+        """Compare ``program`` with the reference in the longest possible step, and describe the difference.
 
         - If the programs agree, the result is ''.
         - If ``program`` fails in all steps, the result describes its last failure.
@@ -311,7 +316,8 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # If the step does not change the state, the results must agree up to rounding errors.
+                # The gap is compared with the change of the state. If the change is zero, the lower bound of
+                # ``scale`` allows for rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -346,7 +352,8 @@ def _no_step(scene: Problem) -> SceneError:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True.
 
-    For the nearby state, points are moved by a fixed group element, and a fixed covector is added to momenta.
+    In the nearby state, the time is larger by 1/8, and a fixed covector is added to momenta. All other parts
+    of the state are moved by a fixed group element.
     """
     start = scene.initial(domain)
     # The directions are sines of integers: numbers without symmetries, and the same in every run.
@@ -357,8 +364,8 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # A covector is added to momenta. Points are moved by a group element, so that they stay on the
-        # manifold.
+        # A covector is added to momenta. Other parts of the state are moved by a group element, so that they
+        # stay on the manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:

@@ -33,8 +33,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(arg)
         # If another operation also reads L(x), L(x) is computed in any case, and factoring saves nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Terms with the same linear map form a group. Every other term is a group of its own, keyed by its
-        # index.
+        # Terms with the same linear map form a group. Every other term forms its own group, and the key of
+        # this group is the index of the term.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):

@@ -1,4 +1,4 @@
-"""Join two exact flows of one part into one flow, if they commute with all flows between them.
+"""Join two exact flows of the same part of the Hamiltonian, if they commute with all flows between them.
 
 The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
 with 40 digits at sample points of the scene.
@@ -36,7 +36,7 @@ class Letter:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with flows of one part joined across flows that commute with them."""
+    """Return the program in which flows of the same part of the Hamiltonian are joined, if possible."""
     letters = word(program)
     if letters is None:
         return program
@@ -108,7 +108,10 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a function of the names of two parts. It returns True if the flows of the parts commute."""
+    """Return a function of the names of two parts of the Hamiltonian.
+
+    The function returns True if the flows of the two parts commute.
+    """
     orbit = orbit_of(scene)
     d = orbit.domain
 
@@ -139,9 +142,9 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts whose flows commute with the flows of all other parts of a composition.
+    """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
 
-    The parts are in the order in which they first occur.
+    Only the parts of the flows ``letters`` count. The result has the order in which they first occur.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

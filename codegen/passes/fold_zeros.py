@@ -56,8 +56,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is zero if one of its arguments is zero. Any other operation with ``linear_in_last`` is zero
-    # if its last argument is zero.
+    # A bracket is zero if one of its arguments is zero. Every other operation with ``linear_in_last`` returns
+    # zero if its last argument is zero.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)

@@ -25,16 +25,16 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad_x combined, if the group has closed forms of such functions."""
-    # Without a closed form, combining functions saves nothing: the product needs as many brackets as all its
-    # factors together.
+    # Without a closed form, combining functions saves nothing: a product of functions needs as many brackets
+    # as its factors one after the other.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with some products q exp(x) computed by one operation, without exp(x).
+    """Return the program in which one operation computes q exp(x) from q and x, for some products q exp(x).
 
-    This saves work if only one row of the product is needed. Therefore a product is changed only if three
-    conditions hold:
+    This saves work if only one row of the matrix q exp(x) is needed. Therefore a product is changed only if
+    three conditions hold:
     - The product is a position at which the field in the body frame is evaluated.
     - The product is not the new position.
     - The field reads at most one row of the position.
@@ -43,7 +43,7 @@ def rows(program: Program, scene: Problem) -> Program:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
-    # For a matrix group, these symbols are the entries of the matrix, row by row.
+    # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
     # If the field reads entries in several rows of the position, the program is not changed.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
@@ -53,7 +53,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # If the product is the new state, all its rows are needed.
+        # If the product is an output of the program, all its rows are needed, and it is not replaced.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -104,12 +104,13 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and if x = s y for a number s.
+    """Find y, W and v such that the program defines ``var`` as W(ad_y) v, and s such that x = s y.
 
-    The function W is given as a product of factors. In all other cases the result is None.
+    The result is (s, (y, W, v)), where the function W is given as a product of factors and s is a rational
+    number. If this is impossible, or if several operations read ``var``, the result is None.
     """
     source = rewriter.definitions.get(var)
-    # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
+    # If another operation also reads W(ad_y) v, it still needs this value. Then W would be evaluated twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -119,10 +120,10 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Apply a function F of ad_x to each term of the sum ``total``, and return the new sum.
+    """Apply a function F(ad_x) to each term of the sum ``total``. Append the new sum and return its variable.
 
-    ``word`` is F as a product of factors. Each term of ``total`` has the form W(ad_y) v, where x = s y for a
-    number s. ``parts`` contains the entry (s, (y, W, v)) for each term.
+    ``word`` is F as a product of factors. For each term W(ad_y) v of ``total``, ``parts`` contains the entry
+    (s, (y, W, v)) with x = s y.
     """
     terms = []
     for scale, (y, inner, v) in parts:

@@ -16,10 +16,9 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain one value, as pairs (index of the sum, quotient).
+"""All sums that contain a certain value, as pairs (index of the sum, quotient).
 
-The quotient is the coefficient of the value in the sum, divided by the coefficient of the value in the first
-sum of the tuple.
+The quotient is the coefficient of the value in this sum, divided by its coefficient in the first of the sums.
 """
 
 
@@ -29,8 +28,8 @@ def run(program: Program) -> Program:
     If several sums contain multiples of one linear combination of terms, this combination is computed once.
     """
     while True:
-        # A sum that was expanded into another sum must not count as a reader of its terms. Therefore unused
-        # values are removed in each round.
+        # A sum that was expanded into another sum may be unused now. Unused sums are removed in each round,
+        # because they would count as readers of their terms.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -45,7 +44,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # If a program contains L(c x) for several numbers c, value numbering then computes L(x) only once.
+    # L(c x) becomes c L(x). If a program contains L(c x) for several numbers c, the pass ``value_numbering``
+    # merges the equal values L(x).
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -74,9 +74,9 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which each common linear combination is computed once.
+    """Return the program in which sums share linear combinations of values.
 
-    A linear combination is common if several sums contain multiples of it.
+    If several sums contain multiples of one linear combination, this combination is computed once.
     """
     builder = Builder({v.name for v in defined(program)})
     # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
@@ -92,8 +92,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # The coefficients of v are divided by its coefficient in the first sum. Values with proportional
-        # coefficients then have equal tuples ``relative``.
+        # ``places`` contains the coefficient of v in each sum. All coefficients are divided by the first one.
+        # Values with proportional coefficients then have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
@@ -104,8 +104,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # One power of h is factored out of the common combination. Therefore its coefficients must have the
-        # same power of h.
+        # One power of h is factored out of the common combination. Therefore all coefficients of the
+        # combination must have this power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -116,7 +116,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The assignments are sorted, because the common sums are appended after the sums that read them.
+    # The new common sums are appended at the end. Other sums read them, so the assignments are sorted again.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A common sum reads only values that the old sums read, so no cycle can arise.
     assert result is not None

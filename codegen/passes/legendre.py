@@ -5,9 +5,9 @@ equations computes an unknown v of the stage in three steps. Invertible linear m
 M. The velocity is w = W(Q, P). Further invertible linear maps compute v from w. This pass computes the same
 values in the opposite direction: the inverse maps compute w from v, and the momentum is P = W^{-1}(Q, w).
 
-After the pass, other operations read the momentum and the force computed from v. A force then no longer
-depends on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the
-unknowns. One equation remains for each v: the momentum computed from v equals M. The function
+After the pass, other operations read the momentum that is computed from v. A force then no longer depends on
+an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
+equation remains for each v: the momentum that is computed from v must equal M. The function
 :func:`residuals` adds this equation to the block.
 """
 
@@ -31,11 +31,11 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """Two chains of invertible maps between an unknown and the momentum that determines it.
+    """The assignments that compute an unknown from a momentum, which is called the base of the path.
 
-    - ``velocity`` is the assignment of the velocity W(Q, P) of a stage with position Q and momentum P.
-    - ``inward`` contains the maps that compute P from another momentum, called the base.
-    - ``outward`` contains the maps that compute the unknown from W(Q, P).
+    - ``inward`` contains invertible maps. They compute the momentum P of a stage from the base.
+    - ``velocity`` is the assignment that computes the velocity W(Q, P) of the stage at the position Q.
+    - ``outward`` contains invertible maps. They compute the unknown from W(Q, P).
 
     The maps are in order of application. The last argument of each map is the result of the previous map.
     """
@@ -52,7 +52,7 @@ class Path:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with momenta and forces computed from velocities.
+    """Return the program in which momenta and forces of stages are computed from velocities.
 
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
@@ -67,14 +67,13 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths can be found before the block is rewritten, because rewriting one path does not change the
-        # other paths.
+        # Rewriting the block for one path does not change the other paths, so all paths are found first.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # At the solution, image and unknown are equal. Later statements read the unknown in place of the
-        # image.
+        # An unknown equals its image at the solution. Later statements now read the unknown, and no longer
+        # its image.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -82,8 +81,9 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def residuals(program: Program, scene: Problem) -> Program:
-    """Return the program with residuals in each block in which every unknown has a path (:func:`path`).
+    """Return the program with residuals added to its blocks.
 
+    A block gets residuals only if the function :func:`path` finds a path for every unknown of the block.
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
     if scene.body is None or scene.body.inverse is None:
@@ -104,17 +104,14 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the maps that compute an unknown from the momentum and velocity of a stage.
-
-    The result is None if the unknown is not computed in this way.
-    """
+    """Return the path of an unknown, or None if the unknown is not computed as in :class:`Path`."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second argument of the velocity is the momentum P of the stage. The maps ``inward`` compute P from
-    # another momentum.
+    # The second argument of the assignment ``velocity`` is the momentum P of the stage. The maps ``inward``
+    # compute P from another momentum.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -135,13 +132,16 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    # A multiplication by h has no inverse for h = 0. The iteration must be defined for h = 0, too.
+    # A multiplication by a number is invertible. A multiplication by h is not invertible if h = 0.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append the inverse of an assignment's map, applied to ``value``, and return its result."""
+    """Append an assignment that applies the inverse map to ``value``, and return its result.
+
+    The inverse map is the inverse of the map that ``assign`` applies.
+    """
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -155,10 +155,10 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Compute all values of a path in the opposite direction, from the unknown to the base.
+    """Append assignments that compute all values of a path from its unknown, in the opposite direction.
 
-    The base is the momentum from which the path begins. The result is a pair. First comes a dictionary that
-    maps each old variable of the path to its new variable, then the new variable of the base.
+    The result is a pair (dictionary, variable). The dictionary maps each old variable of the path to its new
+    variable. The variable is the new variable of the base, which is computed last.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -176,16 +176,17 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append and return the residual of a path: the difference between two formulas for a momentum.
+    """Append the residual of the equation for the unknown of a path, and return its variable.
 
-    One formula follows from the equations of the block, the other from the velocity.
+    The residual is the difference of two values of one momentum. The equations of the block give the first
+    value. The second value is computed from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The residual compares two formulas for one momentum. Any momentum of the path may be chosen, because the
-    # maps between the momenta are invertible.
+    # The momentum of the residual may be any momentum of the path, because the maps between these momenta are
+    # invertible. By default it is the base.
     given = route.base
-    # Suppose that P is Ad*_{exp x} of a sum of terms f(ad*_x) v. Then P itself is such a sum, because
-    # Ad*_{exp x} is a function of ad*_x. In this case the residual compares two formulas for P.
+    # If the momentum P of the stage is Ad*_{exp x} of a sum of terms f(ad*_x) v, then P is used. It is itself
+    # such a sum, because Ad*_{exp x} is a function of ad*_x.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -194,9 +195,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum of terms f(ad*_x) v.
+    """Return True if the momentum P of the stage is Ad*_{exp x} of a sum of terms f(ad*_y) v.
 
-    Each term has its own function f and its own v. In a term, a multiple of x may replace x.
+    Each term has its own f, y and v. Every y must be proportional to x.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -213,15 +214,15 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with new statements, which compute the values of a path from its unknown.
+    """Return the block with new statements that compute the values of a path from its unknown.
 
-    All statements that are not on the path then read the new values.
+    The statements that are not on the path read these new values.
     """
-    # The new statements compute all values of the path from its unknown. A later pass removes unused values.
+    # A later pass removes the new values that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The block also computes the base momentum from values of other stages. Other statements read this value,
-    # and not the new value that is computed from the unknown.
+    # If the base is not an unknown, the block computes it from values of other stages. Statements that are
+    # not on the path keep reading this old value of the base.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The statements on the path are not changed, because they form the equation for the unknown.
@@ -231,5 +232,5 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # If the velocity depends on a value computed from the velocity, the block is not changed.
+    # ``sorted_body`` is None if the new statements create a cycle. Then the block is not changed.
     return block if sorted_body is None else replace(block, body=sorted_body)

@@ -51,7 +51,7 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """The number of operations that the pass removed, by the name of the operation in reports."""
+        """The number of operations that the pass removed, for each name of an operation in reports."""
         # The difference of two Counters omits negative numbers: operations that a pass adds are no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
@@ -77,5 +77,8 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return how often each operation occurs, by its name in reports. Operations without cost are omitted."""
+    """Return how often each operation occurs. The keys are the names of the operations in reports.
+
+    Operations without cost are omitted.
+    """
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)

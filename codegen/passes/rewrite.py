@@ -58,11 +58,13 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # The initial values of the unknowns are read before the body defines new values.
+        # The initial values of the unknowns are computed before the block. Therefore their variables are
+        # replaced before the body is rewritten.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # Images and residuals are results of the body, so they are renamed last.
+        # The body computes the images and residuals. Therefore their variables are replaced after the body is
+        # rewritten.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)

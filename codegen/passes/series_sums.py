@@ -5,8 +5,8 @@ equals A + ad_x (B + ad_x C), where A, B and C are the sums over k of f_k v_k, f
 Without nesting, each term needs two brackets. For example, the momentum in equation (3.19) of Marthinsen's
 thesis is such a sum.
 
-A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
-expanded into the terms of the v_k.
+A group with closed forms computes the sum by ``series_sum``. If some v_k are sums themselves, they may be
+replaced by their terms in A, B and C.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ class SeriesSums:
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
         """Return the value of a sum in nested form, or None if nesting saves nothing.
 
-        The method records definitions, so it must be called for every assignment in order.
+        The method records the definition of each value. Therefore it must be called for every assignment of
+        the program, in the order of execution.
         """
         for target in assign.targets:
             self.definitions[target] = assign
@@ -81,8 +82,8 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads this term, the term is computed in any case, and nesting saves
-            # nothing.
+            # If another operation also reads this term, the term is computed in any case. Then a nested form
+            # of the sum saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -94,13 +95,13 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets with or without nesting, so it is not nested.
+        # A single term needs two brackets in any form, so groups with one term are omitted.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of a sum of terms f(ad_y) v, one for each of the ``members``.
+        """Return the value of the sum of the terms ``members``. Each term is a multiple of a value f(ad_y) v.
 
         Each y is a multiple of one element x, so each f(ad_y) is a function of ad_x.
         """
@@ -140,9 +141,9 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient c. If c is rational and negative, it is computed as -(-c)."""
-    # If a program contains c x and (-c) x, both then use the product of x and the positive factor. A negative
-    # sign only changes an addition to a subtraction.
+    """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
+    # A program may contain both c x and (-c) x. Both terms then use one product, in which the coefficient is
+    # positive. The minus sign turns an addition into a subtraction.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
@@ -151,7 +152,7 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples of vectors. Terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Terms with coefficient one come first. They need no product.
+    # The terms with coefficient one come first, because they need no product.
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

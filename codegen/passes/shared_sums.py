@@ -1,4 +1,4 @@
-"""A linear map L is applied once to a combination that several sums contain.
+"""Apply a linear map L once, if several sums contain the same linear combination of values L(x_k).
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed numbers a_k.
 This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not
@@ -25,7 +25,7 @@ coefficient is one.
 
 
 def run(program: Program) -> Program:
-    """Return the program in which a linear map is applied once to a combination that several sums contain."""
+    """Return the program in which common combinations sum_k a_k L(x_k) are computed as L(sum_k a_k x_k)."""
     while True:
         # A value formed in one round may be a term of a combination in the next round, so the search is
         # repeated.
@@ -35,8 +35,8 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The variables of this round are bound as default arguments, because ``wanted`` and ``values``
-            # are new variables in the next round.
+            # The default arguments store ``wanted`` and ``values`` of this round, because both names refer to
+            # other objects in the next round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -70,10 +70,10 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations of two or more values L(x_k) for which factoring saves work.
+    """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    After factoring, a map L is applied once for each combination in place of once for each value. Therefore
-    factoring saves work only if there are fewer combinations than values.
+    The map L is then applied once for each combination, and no longer once for each value L(x_k). This saves
+    work only if there are fewer combinations than values. A combination of a single value is not returned.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -93,10 +93,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return the terms of a sum that are values of linear maps, grouped by the map.
+    """Return the linear combinations of values L(x_k) in a sum, one for each linear map L.
 
-    For a linear map L, the terms with values L(x_k) are a factor times a linear combination of these values.
-    The dictionary maps the linear combination to the factor.
+    The sum contains a multiple of each linear combination (:data:`Share`). The dictionary maps the linear
+    combination to the factor of this multiple.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -105,8 +105,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A coefficient contains a single power of h. If a value occurs with two powers of h, it has two
-        # coefficients, and the terms of this linear map are skipped.
+        # A value may occur in two terms with different powers of h. A combination contains each value only
+        # once, so these terms and all others with the same linear map are skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # The coefficient of the first term is divided out, so that proportional combinations become equal.

@@ -41,10 +41,13 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image, or None if the body would then have a cycle."""
+    """Return the block with an unknown replaced by its image (the right-hand side of its equation).
+
+    The result is None if the unknown cannot be replaced.
+    """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A single unknown cannot be removed, because its image depends on the unknown itself. Otherwise the pass
-    # :mod:`codegen.passes.blocks` would have replaced the block by assignments.
+    # The only unknown of a block cannot be replaced, because its image depends on the unknown itself. An
+    # unknown whose image is an unknown is not replaced either.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -52,14 +55,15 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # A cycle means that the image depends on the unknown itself, so the unknown is needed.
+    # ``body`` is None if the new assignments have a cycle. Then the image depends on the unknown itself, and
+    # the unknown is needed.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The image of another unknown may be the removed unknown. ``now`` replaces this image by ``image``.
+    # If another unknown has the removed unknown as its image, this image becomes ``image``.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
@@ -70,8 +74,8 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state`` is False while the arguments of an assignment are visited. If a visited argument leads back to
-    # the assignment, there is a cycle.
+    # ``state[k]`` is False while the arguments of assignment k are visited, and True after that. If the visit
+    # returns to an assignment whose state is False, there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
