@@ -206,7 +206,7 @@ class ChainSolver:
             For(_SITE, _INNER - 1, (backward,), reverse=True),
         ]
         about = (
-            "Solve the equations of the first ``inner`` sites by forward and back substitution. The solution "
+            "Solve the equations of the first 'inner' sites by forward and back substitution. The solution "
             "overwrites the right-hand side."
         )
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))

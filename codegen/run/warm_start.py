@@ -184,7 +184,7 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are "
+            "A backward difference, multiplied by 'sign'. Terms with an index below 'first' are "
             "omitted. The term of the latest solution is added last, so all other terms can be summed before "
             "that solution is known."
         )

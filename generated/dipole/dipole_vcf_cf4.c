@@ -384,8 +384,8 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
- * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
+ * of the latest solution is added last, so all other terms can be summed before that solution is
  * known.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,

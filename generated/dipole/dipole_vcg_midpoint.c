@@ -285,8 +285,8 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
- * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
+ * of the latest solution is added last, so all other terms can be summed before that solution is
  * known.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,

@@ -378,8 +378,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
- * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
+ * of the latest solution is added last, so all other terms can be summed before that solution is
  * known.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,

@@ -14,8 +14,8 @@
  *             the body; V, kick
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   14 flows: two flows of one part are joined if they commute with all flows between
- *             them
+ * left out:   14 flows: two flows of one term of H are joined if they commute with all flows
+ *             between them
  *             the time: the scene does not depend on it
  *             an iteration for implicit stages: every stage is explicit
  * operations: 473 add, 786 mul, 14 stumpff_12 a step

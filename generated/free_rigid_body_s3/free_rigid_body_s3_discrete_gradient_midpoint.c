@@ -326,8 +326,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
- * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
+ * of the latest solution is added last, so all other terms can be summed before that solution is
  * known.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

@@ -428,8 +428,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are omitted. The
- * term of the latest solution is added last, so all other terms can be summed before that solution is
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
+ * of the latest solution is added last, so all other terms can be summed before that solution is
  * known.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,

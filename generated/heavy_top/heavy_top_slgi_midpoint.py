@@ -408,9 +408,9 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, multiplied by ``sign``. Terms with an index below
-    ``first`` are omitted. The term of the latest solution is added last, so all
-    other terms can be summed before that solution is known.
+    """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
+    are omitted. The term of the latest solution is added last, so all other terms
+    can be summed before that solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0

@@ -66,7 +66,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     name = "rkmk"
     description = (
-        "Runge-Kutta-Munthe-Kaas methods; ``rkmk(r)`` truncates dexpinv after the power r, and ``rkmk`` "
+        "Runge-Kutta-Munthe-Kaas methods; rkmk(r) truncates dexpinv after the power r, and rkmk "
         "does not truncate dexpinv."
     )
     formats = ("rk",)

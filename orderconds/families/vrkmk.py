@@ -42,7 +42,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
 
     name = "vrkmk"
     description = (
-        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``."
+        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: vrkmk(r)."
     )
     formats = ("rk",)
     implies: ClassVar[Mapping[str, str]] = {"sprk": "a vector space is a Lie group under addition"}

@@ -47,7 +47,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     name = "vrkmk_pade"
     description = (
-        "Variational Runge-Kutta-Munthe-Kaas methods: ``vrkmk_pade(r)`` inverts the series of dexp, "
+        "Variational Runge-Kutta-Munthe-Kaas methods: vrkmk_pade(r) inverts the series of dexp, "
         "truncated after the power r."
     )
 
