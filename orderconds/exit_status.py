@@ -6,8 +6,10 @@
 1      the command ran, and a claim or check failed
 2      bad input or usage
 70     an internal error: a fault of this program
-130    interrupted by Ctrl-C; 143 and 129 for the signals SIGTERM and SIGHUP
-141    the reader closed the pipe, as ``head`` does; no message is printed
+129    stopped by the signal SIGHUP
+130    interrupted by Ctrl-C
+141    the output is a pipe that ``head`` or another program closed; no message
+143    stopped by the signal SIGTERM
 =====  ===============================================================================
 """
 
@@ -34,7 +36,7 @@ SIGNALS = ("SIGTERM", "SIGHUP")
 """The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The message about an internal error contains at most this number of characters of the error's text."""
+"""The maximal length of an error's text in the message about an internal error. A longer text is cut."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -46,7 +48,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """An exception that replaces KeyboardInterrupt or BrokenPipeError. ``cause`` is the original one."""
+    """An exception that replaces KeyboardInterrupt or BrokenPipeError. ``cause`` is the replaced one."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -75,7 +77,7 @@ class Run:
     documents: int = 0
 
     def print_document(self, value: Any) -> None:
-        """Print one JSON document, as :func:`json_text` writes it."""
+        """Print one JSON document in the format of :func:`json_text`."""
         text = json_text(value)
         self.documents += 1
         click.echo(text)
@@ -165,7 +167,8 @@ def _usage_message(error: click.UsageError) -> str:
 def past_click() -> Iterator[None]:
     """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click handles these two exceptions itself, but it does not catch :class:`Stopped`.
+    The library click would catch these two exceptions. It does not catch :class:`Stopped`, so this program
+    can choose the message and the exit status.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -179,13 +182,14 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device. The process that read stdout has ended."""
+    """Redirect stdout to the null device, because stdout is a closed pipe."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Install signal handlers that raise :class:`Terminated`. A second signal ends the program at once."""
+    """Install signal handlers that raise :class:`Terminated`. If the same signal arrives again, it ends the
+    program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -193,13 +197,13 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # If the caller ignores a signal, as nohup does, this program ignores it, too.
+        # A command such as nohup starts this program with an ignored signal. The signal remains ignored.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 
 
 def current_run() -> Run:
-    """Return the run of the current command, or a new run if no command is running.
+    """Return the :class:`Run` of the current command, or a new :class:`Run` if no command is running.
 
     >>> current_run().documents
     0

@@ -1,11 +1,11 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
-A module is parsed, not executed. The reader evaluates the assignments at the top level one after another. An
-assignment may contain lists, tuples, numbers, arithmetic, square roots and names that were assigned before.
-It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
-Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. If the reader cannot evaluate a statement
-that may change an array of the tableau, the file is refused. At the user's request,
-:mod:`orderconds.exchange.python_module` executes the module instead.
+The file is parsed, not executed. The function :func:`read` evaluates the assignments at the top level one
+after another. An assignment may contain lists, tuples, numbers, arithmetic, square roots and names from
+earlier assignments. It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and
+``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if a
+statement that may change an array of the tableau cannot be evaluated. At the user's request,
+:mod:`orderconds.exchange.python_module` executes the file instead.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from orderconds.tableau.file_format import Data
 
 ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
-"""The names of arrays. A module contains a tableau if it assigns all names of one group."""
+"""Groups of names of arrays. A module contains a tableau if it assigns all arrays of one group."""
 
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 HARMLESS = ("print",)
 MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
-"""Modules with functions that the reader can evaluate."""
+"""Modules whose functions may occur in expressions, such as ``sqrt`` or ``Fraction``."""
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
@@ -60,7 +60,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module contains no tableau. Return an empty text if it assigns the arrays of a tableau.
+    """Return why a module contains no tableau. If the module assigns the arrays of a tableau, return an empty
+    text.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('assigns no arrays of a tableau, such as A and b', '')
@@ -80,9 +81,9 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if a Python module is valid and certainly contains no tableau.
+    """Return True if nothing in a valid Python module resembles a tableau.
 
-    The result is False if the module assigns a list or a tuple to A, a or b.
+    An assignment to A, a or b resembles a tableau if its right-hand side contains a list or a tuple.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -145,7 +146,8 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 def _follow(statement: ast.stmt, values: Values) -> None:
     """Evaluate one statement at the top level of the module, and store the new values of names.
 
-    If the reader cannot evaluate the statement, all names in the statement become unknown.
+    If an expression cannot be evaluated, the assigned variable has an unknown value. After a loop or another
+    unsupported statement, the values of all variables in the statement are unknown.
     """
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
@@ -194,12 +196,13 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Return True for a statement such as ``if __name__ == "__main__"``."""
+    """Return True if the condition of an ``if`` statement contains ``__name__``. Such a statement is
+    skipped, because it usually runs only in a script."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
 def _targets_are_names(statement: ast.stmt) -> bool:
-    """Return True if a statement assigns to variables only, and not to entries or attributes."""
+    """Return True if a statement assigns only to variables. ``A[0] = 1`` and ``x.y = 1`` give False."""
     if isinstance(statement, ast.AnnAssign):
         return True
     return isinstance(statement, ast.Assign) and all(
@@ -210,7 +213,8 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return False for other statements."""
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return True on success, and False for
+    other statements."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
@@ -261,7 +265,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return the cells of a row. A matrix with one row or one column also counts as a row."""
+    """Return a list of numbers. A matrix with one row or one column is converted to a list of its entries."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

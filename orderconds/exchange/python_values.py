@@ -27,12 +27,11 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays whose entries all have the same type. An entry of an array of
-integers cannot be changed to 1/2."""
+"""Constructors of arrays in which all entries have the same type. In an array of integers, for example, no
+entry can be changed to 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""An array is refused if its ``dtype`` contains one of these texts. The refused types are integers, Booleans,
-complex numbers, and floats with 16 or 32 bits.
-"""
+"""The value of an array is unknown if its ``dtype`` contains one of these texts, as ``float32`` and ``int64``
+do. Such types cannot store all doubles, or they are complex."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -51,7 +50,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that the reader cannot evaluate. ``reason`` describes the expression, ``line`` is its line."""
+    """An unknown value: its expression cannot be evaluated. ``reason`` describes the expression. ``line`` is
+    the line number of the expression."""
 
     reason: str
     line: int
@@ -62,7 +62,7 @@ Value = Expression | Array | Computed | str
 
 
 class _NotLiteral(Exception):
-    """The error for an expression that the reader cannot evaluate."""
+    """The error for an expression that cannot be evaluated."""
 
     def __init__(self, node: ast.AST, reason: str) -> None:
         super().__init__(reason)
@@ -73,7 +73,7 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. Comments at the beginning of the module may define numbers.
+    ``text`` is the source of the module. Comments at the beginning of the source may define numbers.
     ``named`` contains the names of these numbers.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
@@ -86,14 +86,14 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """Maps an imported name to the name of a function. After ``from sympy import Rational as R``, it maps
-    ``R`` to ``Rational``.
+    """A map from imported names to names of functions. After ``from sympy import Rational as R``, this map
+    contains the entry ``R`` with the value ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression, or :class:`Computed` if the reader cannot evaluate it."""
+        """Return the value of an expression, or a :class:`Computed` if the expression cannot be evaluated."""
         try:
             return self._value(node)
         except _NotLiteral as problem:
@@ -102,12 +102,14 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name. Ignore the value if the name is in ``named``."""
+        """Assign a value to a name. Do nothing if the name is in ``named``, because a comment in the module
+        already defines this number."""
         if name not in self.named:
             self.known[name] = value
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
-        """Assign a value to the entry with the indices ``place``. Return False if this is impossible."""
+        """Assign a value to the entry with the indices ``place``. Return False if the entry does not exist or
+        cannot store the value, or if the value is an array."""
         target = self.known.get(name)
         for k, index in enumerate(place):
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
@@ -121,8 +123,8 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Mark the values of ``names`` as unknown. If one of the values is an array, all names of this array
-        become unknown."""
+        """Mark the values of ``names`` as unknown. If such a value is an array, it also becomes unknown under
+        each other name that refers to the same array."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -167,7 +169,8 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the source text of a number. The value in the syntax tree is only the nearest double."""
+        """Return the digits of a number from the source, because the syntax tree contains only the nearest
+        double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -185,7 +188,7 @@ class Values:
         if isinstance(node.op, ast.Pow):
             exponent = rational(self._number(node.right))
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
-                raise _NotLiteral(node, "a power with an exponent other than p/q with |p| <= 64, q <= 24")
+                raise _NotLiteral(node, "an exponent that is not a fraction p/q with |p| <= 64 and q <= 24")
             return Power(self._number(node.left), exponent)
         # A loop collects the operands, because recursion into a long sum could exceed Python's limit.
         signs: list[str] = []
@@ -239,7 +242,7 @@ def _class(operator: ast.operator) -> str:
 
 
 def _require_doubles(node: ast.Call) -> None:
-    """Raise an error if the argument ``dtype`` of a call is a type in :data:`NARROW`."""
+    """Raise an error if the argument ``dtype`` of a call contains one of the texts in :data:`NARROW`."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
             raise _NotLiteral(node, "an array whose type is not float64")
@@ -255,8 +258,8 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array and of its rows, with the given attribute ``integral``. Any other value is
-    unchanged."""
+    """Return a copy of an array and of its rows. The copies have the given attribute ``integral``. A value
+    that is not an array is returned unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
@@ -264,7 +267,7 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     sizes = shape.items if isinstance(shape, Array) else [shape]
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
-        raise _NotLiteral(node, "zeros(x), where x is neither n nor (n, m) with 1 <= n, m <= 200")
+        raise _NotLiteral(node, "a call of zeros whose argument is not one or two integers from 1 to 200")
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))
     return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])
@@ -279,7 +282,8 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return the fraction that an expression represents, or None if the expression is not a fraction.
+    """Return the fraction that an expression such as 1/3 or -0.5 represents. Return None if this function
+    cannot compute a fraction, for example for roots, sums and rounded decimals.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

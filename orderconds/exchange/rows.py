@@ -17,8 +17,8 @@ _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a table, and its header if there is one. Blanks at the begin and at the end of a cell
-    are removed."""
+    """The rows of a table. The header is a separate tuple, which is empty if the table has no header.
+    The cells contain no blanks at their beginning or end."""
 
     rows: tuple[tuple[str, ...], ...]
     header: tuple[str, ...] = ()
@@ -32,10 +32,13 @@ class Rows:
 def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
-    The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row may
-    be a header. A first row that begins with ``c`` is a header if its other cells are names of columns:
-    ``c,a1,a2``. Any other first row is a header if all its cells are words and its first cell is
-    not one of ``names``. Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
+    The delimiter is the comma, the semicolon or the tab, whichever occurs in the most lines. The first row
+    may be a header. There are two kinds of headers:
+
+    - The header of a tableau begins with ``c``. The remaining cells begin with ``a``: ``c,a1,a2``.
+    - In other headers, all cells are words, and the first cell is not one of ``names``.
+
+    Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))
@@ -47,8 +50,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # Comments are removed after the text has been divided into cells, because a line within a quoted cell may
-    # begin with #.
+    # A quoted cell may contain a line that begins with #. Such a line is not a comment. Therefore, comments
+    # are removed after the text has been divided into cells.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

@@ -36,7 +36,8 @@ _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def write(data: Data) -> bytes:
-    """Return Python source that constructs the arrays of a tableau as SymPy matrices. A vector becomes a row.
+    """Return Python source that constructs the arrays of a tableau as SymPy matrices. A vector is written as
+    a matrix with one row.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     b = Matrix([[1]])
@@ -55,10 +56,11 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the name and the definition of each named number, after all named numbers in its definition.
+    """Yield the name and the definition of each named number. If the definition of x contains y, then y
+    precedes x.
 
-    A definition is a text or a pair. A pair represents a root of a polynomial: it contains the coefficients
-    in descending order, and the index of the root among the real roots.
+    A definition is a formula or a pair. The pair defines a real root of a polynomial. It consists of the
+    coefficients, from the highest degree to the lowest, and the index of the root among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -96,8 +98,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for some numbers. A number is renamed if the generated source already
-    uses its name, such as ``sqrt``.
+    """Return ``data`` with new names for some numbers. A number with the name ``sqrt``, for example, receives
+    the name ``sqrt_``, because the generated source imports the function ``sqrt``.
     """
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}

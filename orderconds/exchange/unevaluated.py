@@ -1,8 +1,9 @@
 """Unevaluated coefficients: the expressions of a tableau file, without the names of numbers.
 
-A tableau file may name a formula and use the name in coefficients. Formats without such names contain the
-formula instead. The expressions are not evaluated, because evaluation would lose the digits of rounded
-decimals. Only operations with 0 and 1 are simplified.
+A tableau file may define a name for a formula and use the name in coefficients. Some file formats cannot
+store such names. In these formats, each name is replaced by its formula. The resulting expressions are not
+evaluated, because evaluation would lose the digits of rounded decimals. Only operations with 0 and 1 are
+simplified.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long after the names of numbers were replaced by formulas."""
+    """The error for a coefficient whose text is too long, because formulas replace the names of numbers."""
 
 
 class Unevaluated:
@@ -76,7 +77,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """The ring of unevaluated numbers. Only the constant 0 counts as zero.
+    """The ring of unevaluated numbers. In their texts, ``~`` marks a rounded decimal.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -91,8 +92,8 @@ class UnevaluatedNumbers:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """The triple (name, minimal polynomial, decimal) of each root that has a name. The decimal
-        distinguishes the root from other roots of the polynomial."""
+        """One triple (name, minimal polynomial, decimal) for each root with a name. The decimal approximates
+        the root, so it distinguishes the root from the other roots of the polynomial."""
         return tuple((name, *root) for name, root in self._roots.items())
 
     def rational(self, p: int, q: int = 1) -> Unevaluated:
@@ -100,23 +101,24 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant: the exact ``value`` if ``unit`` is zero, else a ball with centre ``value`` and
-        radius ``unit``."""
+        """Return a constant. If ``unit`` is zero, the constant is exactly ``value``. Otherwise, it is a ball
+        with the centre ``value`` and the radius ``unit``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
-        """Return the root of x with the given index: 2 for the square root, 3 for the cube root."""
+        """Return a root of x: the square root for ``index`` 2, the cube root for 3."""
         return Unevaluated(Power(x.expression, Fraction(1, index)))
 
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return an expression that consists of ``name`` alone."""
+        """Return the name of a root as an expression. Store the polynomial and the decimal in
+        :attr:`named_roots`."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0. The size of numbers is limited only in other rings."""
+        """Return 0, so that a limit on the size of numbers has no effect in this ring."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -126,7 +128,7 @@ class UnevaluatedNumbers:
         return None
 
     def key(self, x: Unevaluated) -> tuple[str]:
-        """Return a tuple with the text of x."""
+        """Return a sort key for x: a tuple that contains only the text of x."""
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
@@ -145,10 +147,10 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return the tableau with the expressions in ``file`` as coefficients.
+    """Return the tableau with unevaluated coefficients.
 
-    If an expression contains the name of a number, the name is replaced by the formula of the number. No
-    expression is evaluated.
+    The coefficients are the expressions in ``file``. If an expression contains the name of a number, the name
+    is replaced by the formula of the number.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

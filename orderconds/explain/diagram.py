@@ -1,20 +1,20 @@
 """Diagrams of trees. A diagram has vertices and edges, and the branches of a vertex are ordered.
 
-Trees of every kind are converted to diagrams and then drawn. The vertices depend on the kind of tree:
+All trees and words are converted to diagrams before they are drawn. The signs of the vertices are:
 
-- a tree of one colour: *dot*.
-- a tree of two colours: *black* or *white*.
-- an action tree: *dot* for a derivative of the Hamiltonian, *transport* (``L`` in text drawings) for a
-  coadjoint action.
-- a word over an alphabet: *letter*, or *bracket* for the Lie bracket of its two branches.
+- *dot*: a vertex of a tree with one colour. In an action tree, a dot is a derivative of the Hamiltonian.
+- *black* or *white*: a vertex of a tree with two colours.
+- *transport*: a coadjoint action in an action tree. Text drawings show it as ``L``.
+- *letter*: a letter of a word.
+- *bracket*: the Lie bracket of the two branches of the vertex.
 
-An edge is *plain* or directed. A directed edge points from a derivative in q to a derivative in p or in the
-momentum mu (:mod:`orderconds.trees.directed`). There are two kinds of directed edges:
+An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in trees of partitioned methods with
+the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`), and in action trees:
 
-- *outward*: the edge points from the parent to the child. The child is a velocity (a derivative of H in p or
-  mu). In the order condition, the edge is a factor a_ij.
-- *inward*: the edge points from the child to the parent. The child is a coadjoint action or a force (a
-  derivative of H in q). In the order condition, the edge is a factor ahat_ij.
+- *outward*: the edge points from the parent to the child. The child is a velocity, that is, a derivative of
+  the Hamiltonian in p or in the momentum mu. The edge represents a coefficient a_ij.
+- *inward*: the edge points from the child to the parent. The child is a coadjoint action, or a force, that
+  is, a derivative of the Hamiltonian in q. The edge represents a coefficient ahat_ij.
 """
 
 from __future__ import annotations
@@ -47,12 +47,13 @@ class Branch:
 
 @dataclass(frozen=True)
 class Vertex:
-    """A vertex with its branches from left to right. If ``sign`` is "letter", ``label`` is the text of this
-    letter.
+    """A vertex with its branches from left to right.
 
-    At some vertices, the first n branches and the edge to the parent form a sequence. Then ``legs`` is a pair
-    (m, n): in the sequence, the edge to the parent comes after the first m branches. At all other vertices,
-    ``legs`` is None.
+    The attribute ``label`` is the printed text of a letter. It is empty for vertices with other signs.
+
+    In an action tree, the edge from a force to its parent may have a position among the branches of the
+    force. Then ``legs`` is a pair (m, n): of the first n branches, m come before this edge, and n - m come
+    after it. If the edge has no such position, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -70,7 +71,8 @@ class Vertex:
 
 
 Diagram = tuple[Vertex, ...]
-"""The roots of a word or forest, from left to right. A tree has one root."""
+"""The root vertices of a diagram, from left to right. The diagram of a tree has one root. The diagram of a
+word or forest may have several roots."""
 
 
 def plain(forest: levels.Forest) -> Diagram:
@@ -111,8 +113,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 def action(tree: Velocity) -> Diagram:
     """Return the diagram of an action tree.
 
-    The first branches of the root are a word of action trees. The remaining branches are covectors: forces
-    and transports (:mod:`orderconds.series.action_trees`).
+    The root of an action tree has a word of action trees and a multiset of covectors, which are forces and
+    transports (:mod:`orderconds.series.action_trees`). In the diagram, the branches for the word come first.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]
@@ -122,8 +124,8 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing, and any other word as
-    a sequence of letters.
+    """Return the diagram of a word. The diagram of a Lyndon word is the binary tree of its standard
+    bracketing. The diagram of a different word is a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])
