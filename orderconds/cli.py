@@ -1,8 +1,7 @@
-"""The command-line program: a click group that imports the module of a command only when the command is
-called.
+"""The command-line program. It imports the module of a built-in command only when the command is used.
 
-:data:`BUILT_IN` lists the built-in commands. Commands of other packages, such as ``emit`` of ``codegen``, are
-entry points of the group ``orderconds.commands``.
+:data:`BUILT_IN` lists the built-in commands. Other packages, such as ``codegen``, provide commands as entry
+points (see :data:`COMMAND_GROUP`).
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ BUILT_IN = {
 
 OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
-    "verbose": "Write progress to stderr, with the elapsed and the remaining time, even without a terminal.",
+    "verbose": "Write progress and the remaining time to stderr, even if stderr is not a terminal.",
 }
 """Maps the name of an option to its help text. Every command has these options."""
 
@@ -122,7 +121,7 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        # Shell completion parses incomplete command lines, so repeated options are allowed there.
+        # During shell completion, click reports no errors.
         if resolved[1] is not None and not ctx.resilient_parsing:
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
@@ -181,7 +180,7 @@ class Program(click.Group):
 def _offered() -> Iterable[EntryPoint]:
     """Return the entry points by which other packages provide commands.
 
-    The module ``importlib.metadata`` is imported inside this function, because the import is slow.
+    The import of ``importlib.metadata`` is slow. It happens only when this function is called.
     """
     from importlib import metadata
 
@@ -189,10 +188,10 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if the command line repeats an option that may be given only once.
+    """Raise a UsageError if an option with a value is given twice, or if two flags contradict each other.
 
-    Two flags that set the same parameter to different values, such as ``--quick`` and ``--full``, are
-    refused, too. The same flag may be repeated.
+    The flags ``--quick`` and ``--full``, for example, contradict each other. Flags may be repeated. Options
+    with a value may be repeated if click declares them as ``multiple``.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -262,7 +261,8 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection runs rarely, because most commands are short and use their objects until the end.
+    Garbage collection is made rare. It would free little memory, because a command uses most of its objects
+    until the end.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

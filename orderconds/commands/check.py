@@ -38,8 +38,7 @@ UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest printed number of characters of a coefficient of the scheme with two registers (2N storage).
-Longer coefficients are shortened."""
+"""A coefficient of a 2N storage scheme is printed in full if it has at most this number of characters."""
 
 WIDTH = 200
 """The largest length of a formula or a residual in the text output. Longer texts are shortened."""
@@ -132,14 +131,15 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
-    NPZ, Python, LaTeX or C) or as a name from the library. For a directory, all tableau files below it are
-    checked. A claimed order must equal the computed order. A file claims an order with `order = 4`, or with
-    `rk = 4` in the table `claims`. If a limit ends the computation, the computed order is a lower bound.
+    NPZ, Python, LaTeX or C) or by its name in the library. If a directory is given, all tableau files below
+    it are checked.
 
-    In a directory, files without a tableau are skipped, and their names are printed. Among the skipped files
-    are CSV files without the columns of a tableau, JSON files without a matrix, Python modules that assign
-    neither A nor b, and NumPy archives without the arrays of a tableau. With --require-claims, a file is not
-    skipped if one of its arrays resembles an array of a tableau.
+    A file can claim an order, for example with the line `order = 4`. The table `claims` of a file contains
+    one order for each family, for example `rk = 4`. A claimed order must equal the computed order. If a limit
+    ends the computation, the computed order is a lower bound.
+
+    In a directory, files without a tableau are skipped, and their names are printed. With --require-claims, a
+    file that resembles a tableau is not skipped.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -305,9 +305,9 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
-    If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
-    resemble a tableau are yielded, too. The check may then report that such a file cannot be read. The names
-    of skipped files are written to stderr.
+    In a directory, files without a tableau are skipped. If ``skip_others`` is true, arguments that are files
+    without a tableau are skipped, too. If ``strict`` is true, a file that resembles a tableau is not skipped.
+    The names of skipped files are written to stderr.
     """
     for argument in arguments:
         if not argument.strip():
@@ -332,7 +332,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} hidden folders or files of other formats: {shown}", err=True
+                f"skipped {len(below.others)} files of other formats or hidden folders: {shown}", err=True
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -380,7 +380,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded method, followed by their certificates."""
+    """Return one line with the orders of an embedded method and the certificate of each order."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
@@ -388,7 +388,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the coefficients of the scheme with two registers."""
+    """Return one line with the coefficients A and B of a 2N storage scheme, which needs two registers."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
