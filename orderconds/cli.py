@@ -34,7 +34,7 @@ BUILT_IN = {
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "completion": (
         "orderconds.commands.completion",
-        "Print the script that completes names in a shell.",
+        "Print a shell script that completes commands, options and names.",
     ),
     "construct": (
         "orderconds.commands.construct",
@@ -70,7 +70,8 @@ OUTPUT_OPTIONS = {
 
 
 class Program(click.Group):
-    """The click group of all commands. It converts each error to an exit status.
+    """The program ``orderconds`` as a click group. If a command raises an error, the program prints a
+    message and exits with an error status.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'completion']

@@ -1,6 +1,4 @@
-"""``orderconds check``: compare the computed orders and properties of tableaux with the claims in their
-files.
-"""
+"""``orderconds check``: compute the orders and properties of tableaux and compare them with the claims."""
 
 from __future__ import annotations
 
@@ -32,7 +30,7 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The largest number of failing conditions that the text output lists if a claim fails."""
+"""The text output lists at most this number of failing conditions, or of names of skipped files."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
@@ -55,30 +53,31 @@ WIDTH = 200
 @click.option(
     "--family",
     "-f",
-    help="Check only this family, such as vcg or 'rkmk(1)', even if the file claims no order in it.",
+    help="Check only this family, such as vcg or 'rkmk(1)'. The file need not claim an order in this family.",
 )
 @click.option(
     "--order",
     "-p",
     type=click.IntRange(*CONDITION_ORDER),
-    help="Ignore the claims; require at least this order.",
+    help="Require at least this order. The orders claimed by the files are ignored.",
 )
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claimed order in every family, unless it follows from the order in another family.",
+    help="Require that each file claims its order in every family. No claim is needed if the order follows "
+    "from the order in another family.",
 )
 @click.option(
     "--certified",
     is_flag=True,
     help="Require a proof of each order (certificate exact or ball). If a DIR contains a file with the "
-    "name DECIMAL, the tableaux in this list need no proof.",
+    "name DECIMAL, the tableaux listed in this file need no proof.",
 )
 @click.option(
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a "
-    "file below a directory resembles a tableau but cannot be read as a tableau.",
+    "file in a DIR resembles a tableau but cannot be read.",
 )
 @click.option(
     "--skip-others",
@@ -90,7 +89,7 @@ WIDTH = 200
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
     help="The uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|). "
-    "Default: 8. With 0 the floats are exact numbers.",
+    "Default: 8. If UNITS is 0, the floats are exact numbers.",
 )
 @click.option(
     "--execute",
@@ -131,15 +130,14 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
-    NPZ, Python, LaTeX or C) or by its name in the library. If a directory is given, all tableau files below
-    it are checked.
+    NPZ, Python, LaTeX or C) or by its name in the library.
 
-    A file can claim an order, for example with the line `order = 4`. The table `claims` of a file contains
+    A file can claim an order, for example with the line `order = 4`. In the table `claims`, a file can claim
     one order for each family, for example `rk = 4`. A claimed order must equal the computed order. If a limit
     ends the computation, the computed order is a lower bound.
 
-    In a directory, files without a tableau are skipped, and their names are printed. With --require-claims, a
-    file that resembles a tableau is not skipped.
+    If a directory is given, all tableau files below it are checked. The names of other files are printed. If
+    the option --require-claims is given, a file that resembles a tableau is not skipped.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -190,7 +188,8 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
     """Return one job for each tableau.
 
-    The tableaux that a file ``DECIMAL`` of a directory lists need no proof, even with ``--certified``.
+    A file ``DECIMAL`` in a directory contains a list of tableaux. These tableaux need no proof, even with
+    ``--certified``.
     """
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
@@ -220,9 +219,9 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection if there is only one job.
+    """Disable garbage collection during the check of a single tableau.
 
-    A check needs its objects until the end, so a collection would find little to free.
+    The check uses most of its objects until the end, so a collection would free little memory.
     """
     collects = gc.isenabled()
     if len(jobs) == 1:
@@ -288,10 +287,10 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names of the tableaux that need no proof. The files ``DECIMAL`` of the given directories
-    list them.
+    """Return the names of the tableaux that need no proof.
 
-    Each line of a file ``DECIMAL`` has the form "NAME: reason".
+    A directory may contain a file ``DECIMAL`` with such names. A line of this file has the form
+    "NAME: reason". A line that begins with # is a comment.
     """
     names = set[str]()
     for argument in arguments:
@@ -341,7 +340,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print the report on one tableau: a table of orders, then failing conditions, then the properties."""
+    """Print the report on one tableau. It contains the orders, the failing conditions and the properties."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
@@ -370,7 +369,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of -h undoes a step of h up to and including "
+            "  effectively symmetric: a step of -h undoes a step of h with an error of higher order than "
             f"h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
@@ -435,8 +434,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print the failing conditions of the lowest order that the method does not reach, and their
-    residuals."""
+    """Print why the method does not have a higher order: the failing conditions, each with its residual."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"
