@@ -189,10 +189,10 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if an option with a value is given twice, or if two flags contradict each other.
+    """Raise a UsageError if the options of a command are repeated or contradict each other.
 
-    The flags ``--quick`` and ``--full``, for example, contradict each other. Flags may be repeated. Options
-    with a value may be repeated if click declares them as ``multiple``.
+    A flag may be repeated. An option with a value may be repeated if it is declared with ``multiple=True``.
+    Two flags that set the same parameter, such as ``--quick`` and ``--full``, contradict each other.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
