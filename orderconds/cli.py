@@ -1,8 +1,7 @@
-"""The command-line program: a click group that imports the module of a command only when the command is
-called.
+"""The command-line program. It imports the module of a built-in command only when the command is used.
 
-:data:`BUILT_IN` lists the built-in commands. Commands of other packages, such as ``emit`` of ``codegen``, are
-entry points of the group ``orderconds.commands``.
+:data:`BUILT_IN` lists the built-in commands. Other packages, such as ``codegen``, provide commands as entry
+points (see :data:`COMMAND_GROUP`).
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ BUILT_IN = {
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "completion": (
         "orderconds.commands.completion",
-        "Print the script that completes names in a shell.",
+        "Print a shell script that completes commands, options and names.",
     ),
     "construct": (
         "orderconds.commands.construct",
@@ -65,13 +64,14 @@ BUILT_IN = {
 
 OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
-    "verbose": "Write progress to stderr, with the elapsed and the remaining time, even without a terminal.",
+    "verbose": "Write progress and the remaining time to stderr, even if stderr is not a terminal.",
 }
 """Maps the name of an option to its help text. Every command has these options."""
 
 
 class Program(click.Group):
-    """The click group of all commands. It converts each error to an exit status.
+    """The program ``orderconds`` as a click group. If a command raises an error, the program prints a
+    message and exits with an error status.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'completion']
@@ -122,7 +122,7 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        # Shell completion parses incomplete command lines, so repeated options are allowed there.
+        # During shell completion, click reports no errors.
         if resolved[1] is not None and not ctx.resilient_parsing:
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
@@ -181,7 +181,7 @@ class Program(click.Group):
 def _offered() -> Iterable[EntryPoint]:
     """Return the entry points by which other packages provide commands.
 
-    The module ``importlib.metadata`` is imported inside this function, because the import is slow.
+    The import of ``importlib.metadata`` is slow. It happens only when this function is called.
     """
     from importlib import metadata
 
@@ -189,10 +189,10 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if the command line repeats an option that may be given only once.
+    """Raise a UsageError if the options of a command are repeated or contradict each other.
 
-    Two flags that set the same parameter to different values, such as ``--quick`` and ``--full``, are
-    refused, too. The same flag may be repeated.
+    A flag may be repeated. An option with a value may be repeated if it is declared with ``multiple=True``.
+    Two flags that set the same parameter, such as ``--quick`` and ``--full``, contradict each other.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -262,7 +262,8 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection runs rarely, because most commands are short and use their objects until the end.
+    Garbage collection is made rare. It would free little memory, because a command uses most of its objects
+    until the end.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

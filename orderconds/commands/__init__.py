@@ -1,1 +1,3 @@
-"""The commands of ``orderconds``. Each module has a click ``command``, which returns its exit status."""
+"""The commands of ``orderconds``. Each module defines one click command with the name ``command``. This
+command returns an exit status.
+"""

@@ -1,6 +1,4 @@
-"""``orderconds check``: compare the computed orders and properties of tableaux with the claims in their
-files.
-"""
+"""``orderconds check``: compute the orders and properties of tableaux and compare them with the claims."""
 
 from __future__ import annotations
 
@@ -32,14 +30,13 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The largest number of failing conditions that the text output lists if a claim fails."""
+"""The text output lists at most this number of failing conditions, or of names of skipped files."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest printed number of characters of a coefficient of the scheme with two registers (2N storage).
-Longer coefficients are shortened."""
+"""A coefficient of a 2N storage scheme is printed in full if it has at most this number of characters."""
 
 WIDTH = 200
 """The largest length of a formula or a residual in the text output. Longer texts are shortened."""
@@ -56,30 +53,31 @@ WIDTH = 200
 @click.option(
     "--family",
     "-f",
-    help="Check only this family, such as vcg or 'rkmk(1)', even if the file claims no order in it.",
+    help="Check only this family, such as vcg or 'rkmk(1)'. The file need not claim an order in this family.",
 )
 @click.option(
     "--order",
     "-p",
     type=click.IntRange(*CONDITION_ORDER),
-    help="Ignore the claims; require at least this order.",
+    help="Require at least this order. The orders claimed by the files are ignored.",
 )
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claimed order in every family, unless it follows from the order in another family.",
+    help="Require that each file claims its order in every family. No claim is needed if the order follows "
+    "from the order in another family.",
 )
 @click.option(
     "--certified",
     is_flag=True,
     help="Require a proof of each order (certificate exact or ball). If a DIR contains a file with the "
-    "name DECIMAL, the tableaux in this list need no proof.",
+    "name DECIMAL, the tableaux listed in this file need no proof.",
 )
 @click.option(
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a "
-    "file below a directory resembles a tableau but cannot be read as a tableau.",
+    "file in a DIR resembles a tableau but cannot be read.",
 )
 @click.option(
     "--skip-others",
@@ -91,7 +89,7 @@ WIDTH = 200
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
     help="The uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|). "
-    "Default: 8. With 0 the floats are exact numbers.",
+    "Default: 8. If UNITS is 0, the floats are exact numbers.",
 )
 @click.option(
     "--execute",
@@ -132,14 +130,14 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
-    NPZ, Python, LaTeX or C) or as a name from the library. For a directory, all tableau files below it are
-    checked. A claimed order must equal the computed order. A file claims an order with `order = 4`, or with
-    `rk = 4` in the table `claims`. If a limit ends the computation, the computed order is a lower bound.
+    NPZ, Python, LaTeX or C) or by its name in the library.
 
-    In a directory, files without a tableau are skipped, and their names are printed. Among the skipped files
-    are CSV files without the columns of a tableau, JSON files without a matrix, Python modules that assign
-    neither A nor b, and NumPy archives without the arrays of a tableau. With --require-claims, a file is not
-    skipped if one of its arrays resembles an array of a tableau.
+    A file can claim an order, for example with the line `order = 4`. In the table `claims`, a file can claim
+    one order for each family, for example `rk = 4`. A claimed order must equal the computed order. If a limit
+    ends the computation, the computed order is a lower bound.
+
+    If a directory is given, all tableau files below it are checked. The names of other files are printed. If
+    the option --require-claims is given, a file that resembles a tableau is not skipped.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -190,7 +188,8 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
     """Return one job for each tableau.
 
-    The tableaux that a file ``DECIMAL`` of a directory lists need no proof, even with ``--certified``.
+    A file ``DECIMAL`` in a directory contains a list of tableaux. These tableaux need no proof, even with
+    ``--certified``.
     """
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
@@ -220,9 +219,9 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection if there is only one job.
+    """Disable garbage collection during the check of a single tableau.
 
-    A check needs its objects until the end, so a collection would find little to free.
+    The check uses most of its objects until the end, so a collection would free little memory.
     """
     collects = gc.isenabled()
     if len(jobs) == 1:
@@ -288,10 +287,10 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names of the tableaux that need no proof. The files ``DECIMAL`` of the given directories
-    list them.
+    """Return the names of the tableaux that need no proof.
 
-    Each line of a file ``DECIMAL`` has the form "NAME: reason".
+    A directory may contain a file ``DECIMAL`` with such names. A line of this file has the form
+    "NAME: reason". A line that begins with # is a comment.
     """
     names = set[str]()
     for argument in arguments:
@@ -305,9 +304,9 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
-    If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
-    resemble a tableau are yielded, too. The check may then report that such a file cannot be read. The names
-    of skipped files are written to stderr.
+    In a directory, files without a tableau are skipped. If ``skip_others`` is true, arguments that are files
+    without a tableau are skipped, too. If ``strict`` is true, a file that resembles a tableau is not skipped.
+    The names of skipped files are written to stderr.
     """
     for argument in arguments:
         if not argument.strip():
@@ -332,7 +331,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} hidden folders or files of other formats: {shown}", err=True
+                f"skipped {len(below.others)} files of other formats or hidden folders: {shown}", err=True
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -341,7 +340,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print the report on one tableau: a table of orders, then failing conditions, then the properties."""
+    """Print the report on one tableau. It contains the orders, the failing conditions and the properties."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
@@ -370,7 +369,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of -h undoes a step of h up to and including "
+            "  effectively symmetric: a step of -h undoes a step of h with an error of higher order than "
             f"h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
@@ -380,7 +379,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded method, followed by their certificates."""
+    """Return one line with the orders of an embedded method and the certificate of each order."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
@@ -388,7 +387,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the coefficients of the scheme with two registers."""
+    """Return one line with the coefficients A and B of a 2N storage scheme, which needs two registers."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
@@ -435,8 +434,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print the failing conditions of the lowest order that the method does not reach, and their
-    residuals."""
+    """Print why the method does not have a higher order: the failing conditions, each with its residual."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

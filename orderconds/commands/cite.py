@@ -15,7 +15,7 @@ from orderconds.errors import TableauError, UnknownName
 @click.argument("name", shell_complete=completing(tableau_names, files=True))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, as_json: bool) -> int:
-    """Print the BibTeX entry for NAME: a tableau of the library, a tableau file, or a BibTeX key.
+    """Print the BibTeX entry of NAME. NAME is a tableau of the library, a tableau file or a BibTeX key.
 
     \b
     Examples:

@@ -1,5 +1,4 @@
-"""``orderconds construct``: write a Gauss, Radau or Lobatto method with a given number of stages as a tableau
-file."""
+"""``orderconds construct``: write the tableau of a Gauss, Radau or Lobatto method."""
 
 from __future__ import annotations
 

@@ -30,8 +30,8 @@ NAMES = click.Choice(list(FORMATS))
 @click.option(
     "--to",
     type=NAMES,
-    help="The format to write. Default: the format indicated by the suffix of --output, or toml without "
-    "--output.",
+    help="The format to write. By default, the suffix of --output indicates the format. Without --output, "
+    "the default is toml.",
 )
 @click.option("--name", help="The name of the tableau, if FILE contains no name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
