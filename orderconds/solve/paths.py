@@ -1,17 +1,18 @@
-"""Parametrisations of the exponentials of commutator-free methods. There is one for all methods and one for
-symmetric methods.
+"""Parametrisations of the exponentials of commutator-free methods. One parametrisation describes all methods.
+Another parametrisation describes symmetric methods.
 
-A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Let bar X be the exponent X in which stages j
-and s + 1 - j are exchanged. The method is symmetric under two conditions on the update and on the values Q_i
-of the stages:
+A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Each exponent is a linear combination of the
+vector fields at the stages. If the coefficients of stages j and s + 1 - j are exchanged for all j, an exponent
+X becomes bar X. Let Q_i be the value of stage i. The method is symmetric if the following two conditions are
+satisfied:
 
-- Y_(m+1-J) = bar Y_J for all J.
-- For each stage i, there are a number k and exponents X_1, ..., X_r with
+- Y_(m+1-J) = bar Y_J for J = 1, ..., m.
+- For each stage i, there are a number k from 0 to m and exponents X_1, ..., X_r with
 
       Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
       Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
-A step of length -h is then the inverse of a step of length h.
+A step of length -h of a symmetric method is the inverse of a step of length h.
 """
 
 from __future__ import annotations
@@ -25,8 +26,9 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. Each
-stage and the update are lists of exponentials. An exponential is a list of the names of its coefficients."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. A stage
+is a list of exponentials, and the update is such a list, too. An exponential is represented by the list of
+the names of its coefficients."""
 
 
 def full_paths(spec: Spec) -> Paths:

@@ -58,7 +58,7 @@ class Problem:
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return the order conditions that are independent for the ansatz.
+        """Return order conditions that imply the required order for the methods of the ansatz.
 
         A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
         Theorem II.3.2). If p is even and a symmetric method has at least order p - 1, the method therefore
@@ -108,10 +108,11 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program that evaluates all coefficients that are not constants, and then all weights b_i.
+        """Return a program that evaluates coefficients and weights.
 
-        The weights of a commutator-free method are those of the Runge-Kutta tableau to which it reduces on
-        an abelian group. For compositions and splittings, the program evaluates no weights.
+        The first outputs are the coefficients that are not constants. The remaining outputs are all weights
+        b_i. The weights of a commutator-free method are those of the Runge-Kutta tableau to which the method
+        reduces on an abelian group. For compositions and splittings, the program evaluates no weights.
         """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)

@@ -101,8 +101,8 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Search from the random starting points of batch ``number``. The returned batch contains the solutions
-    with the lowest scores, at most :data:`KEPT`. :class:`Batch` defines the score.
+    """Search from the random starting points of batch ``number``. The returned batch contains at most
+    :data:`KEPT` solutions, namely those with the lowest scores. :class:`Batch` defines the score.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -187,7 +187,7 @@ class Checkpoint:
             write_whole(self.path, json.dumps(record) + "\n")
 
     def remove(self) -> None:
-        """Delete the checkpoint file after the search has ended."""
+        """Delete the checkpoint file."""
         if self.path is not None:
             self.path.unlink(missing_ok=True)
 

@@ -39,8 +39,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which are
-    not available for ``family``.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets an option that is not available for
+    ``family``. ``options`` contains the names of the options that are not available.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

@@ -33,13 +33,14 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """If ``kind`` is ROOT: the degree n of each n-th root. Other kinds do not use this array."""
+    """The degree n of each n-th root, if ``kind`` is ROOT. For other kinds, the array is not used."""
 
 
 class Tape:
     """A recorded program that computes outputs from inputs, in double precision.
 
-    ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`, which records the program.
+    All ``outputs`` are elements of the same ring :class:`~orderconds.ring.traces.Traces`. The arithmetic of
+    this ring records the operations of the program.
     ``width`` is the number of inputs.
 
     >>> from orderconds.ring.traces import Traces

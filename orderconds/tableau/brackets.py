@@ -48,7 +48,7 @@ class Product(Struct, frozen=True):
 
 
 Term = int | str | Bracket | Product
-"""A node (counted from 0), a named element, a bracket or a product."""
+"""A node, the name of an element, a bracket or a product. Nodes are counted from 0."""
 Combination = tuple[tuple[Term, Element], ...]
 """A linear combination: pairs of a term and its coefficient."""
 
@@ -107,9 +107,10 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to a pair of numbers. A term expands to a sum of products of the
-    vector fields at the nodes. The pair contains the least and the greatest number of factors in these
-    products. ``elements`` maps each name in a term to its definition.
+    """Return a function that maps a term to the least and the greatest degree in its expansion.
+
+    The expansion of a term is a sum of products of the vector fields at the nodes. The degree of a product is
+    the number of its factors. ``elements`` maps each name that a term can contain to a linear combination.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -128,10 +129,10 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of factors of the products in a sum.
+    """Return the least and the greatest degree in the expansion of a linear combination of terms.
 
-    The sum is the expansion of a linear combination of brackets into products of the vector fields at the
-    nodes. ``extent`` returns the two numbers for a single term.
+    The expansion is a sum of products of the vector fields at the nodes. The degree of a product is the
+    number of its factors. For a single term, ``extent(term)`` returns the least and the greatest degree.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)

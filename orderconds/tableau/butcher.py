@@ -49,7 +49,7 @@ def tableau_latex(tableau: Tableau) -> str:
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
     the rows of the weights (``below``). Return None if the array is too wide for a column of an article, or
-    if a coefficient contains the name of a number."""
+    if a coefficient contains a symbol for a number, as in ``1 - 2*g``."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -99,9 +99,12 @@ def _html(text: str) -> str:
 
 
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
-    """Return the texts of the rows of a Butcher array: c_i and a_ij for each stage, then the rows of weights.
-    Zeros at the end of a row of A are blank. Return None for a method without a Butcher array, or with more
-    than :data:`WIDEST` stages."""
+    """Return the entries of a Butcher array as text, in two lists of rows.
+
+    The first list contains a row for each stage i: the node c_i, followed by the coefficients a_ij. Zeros at
+    the end of such a row are blank. The second list contains the rows of weights. Return None for a method
+    without a Butcher array, or with more than :data:`WIDEST` stages.
+    """
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:
         return None
