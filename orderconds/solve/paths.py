@@ -2,9 +2,9 @@
 Another parametrisation describes symmetric methods.
 
 A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Each exponent is a linear combination of the
-vector fields at the stages. If the coefficients of stages j and s + 1 - j are exchanged for all j, an exponent
-X becomes bar X. Let Q_i be the value of stage i. The method is symmetric if the following two conditions are
-satisfied:
+vector fields at the stages. For an exponent X, bar X denotes the exponent in which the coefficients of stages
+j and s + 1 - j are exchanged for all j. Let Q_i be the value of stage i. The method is symmetric if the
+following two conditions are satisfied:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
 - For each stage i, there are a number k from 0 to m and exponents X_1, ..., X_r with
