@@ -32,9 +32,9 @@ the names of its coefficients."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of all methods. Each stage has a coefficient in each exponential. For
-    explicit and diagonally implicit methods, constraints set some coefficients to zero. The first stage of an
-    explicit method has no exponentials.
+    """Return the parametrisation of all methods. In each exponential, the vector fields at all stages have
+    coefficients. For explicit and diagonally implicit methods, constraints set some coefficients to zero. The
+    first stage of an explicit method has no exponentials.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -60,8 +60,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. A stage begins with exponentials of the update. At
-    least one exponential follows that is not from the update.
+    """Return the parametrisation of symmetric methods. A stage begins with some exponentials of the update,
+    or with none. The stage ends with at least one exponential that has its own coefficients.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -81,8 +81,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` of the m exponentials of the update. In the first half of
-        # the stages, ``whole`` is (i - 1/2) m/s, rounded up.
+        # Stage i begins with the first ``whole`` of the m exponentials of the update. For i <= s/2, the
+        # number ``whole`` is (i - 1/2) m/s, rounded up. For stage s + 1 - i, it is m minus this number.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -213,10 +213,10 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Take finished batches from the checkpoint,
-    and add each new batch to the checkpoint.
+    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Batches in the checkpoint are not computed
+    again. Each new batch is added to the checkpoint.
 
-    If ``cluster`` is the address of a dask cluster, all new batches run on the cluster. Raises
+    If ``cluster`` is the address of a dask cluster, all new batches are computed on the cluster. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

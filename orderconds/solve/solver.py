@@ -1,5 +1,5 @@
-"""The steps of ``orderconds solve``. First try to prove that no method exists. If there is no such proof,
-search for methods. Return the best method whose order can be proved."""
+"""The command ``orderconds solve``. The command first tries to prove that no method exists. If this proof
+fails, the command searches for a method and proves the order of the method."""
 
 from __future__ import annotations
 
@@ -102,8 +102,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the names of the parametrisations of the coefficients that the specification allows. Raises
-    InputError if no parametrisation is allowed, or if the options contradict each other."""
+    """Return the names of the parametrisations that the options of the search allow. Raises InputError if the
+    options allow no parametrisation, or if they contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:

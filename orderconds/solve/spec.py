@@ -11,7 +11,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Spec:
-    """The required properties of a method, which are options of ``orderconds solve``.
+    """The required properties of a method. Each property is an option of ``orderconds solve``.
 
     - ``dirk``: whether the method is diagonally implicit
     - ``fsal``: whether the last stage equals the result of the step (first same as last)

@@ -1,8 +1,9 @@
 """Lie algebra elements as text in tableau files, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element that the
-file defines earlier. The commutator is ``[x,y] = x y - y x``. Products such as ``S*S`` are allowed only for
-quadratic Lie groups, where the Cayley map replaces the exponential.
+file defines earlier. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``. The last
+factor of a product acts first. Tableau files may contain products such as ``S*S`` only for quadratic Lie
+groups, where the Cayley map replaces the exponential.
 """
 
 from __future__ import annotations
@@ -137,7 +138,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty sum contains no product, and the minimum of an empty list is undefined. Return (1, 1) instead.
+    # An empty combination has no degrees. By convention, the result is then (1, 1).
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
@@ -176,7 +177,7 @@ def _expanded(term: Term, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSe
 
 
 def _times(x: NodeSeries, y: NodeSeries, ring: Ring) -> NodeSeries:
-    """Return the product xy, in which y acts first."""
+    """Return the product of ``x`` and ``y``. The factor ``y`` acts first."""
     result: NodeSeries = {}
     for u, a in x.items():
         for v, b in y.items():

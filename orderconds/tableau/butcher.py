@@ -1,5 +1,5 @@
-r"""Tableaux in LaTeX or HTML. A Butcher tableau is printed as an array. All other methods are printed as
-equations (:mod:`orderconds.tableau.equations`)."""
+r"""Printing of methods in LaTeX or HTML. A Runge-Kutta method is printed as a Butcher array if the array is
+small enough. In all other cases, the method is printed as equations (:mod:`orderconds.tableau.equations`)."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ SPACED = r" \\[2pt] "
 rows would touch."""
 
 NARROWER = r"\!"
-"""LaTeX code of a negative space. If an array is too wide, this space is placed on both sides of each
+"""LaTeX code of a negative space. In a wide array, one or two such spaces are placed on both sides of each
 entry."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return the Butcher array in LaTeX. For methods without a Butcher array, return equations.
+    r"""Return the LaTeX code of the Butcher array. For methods without a Butcher array, return equations.
 
-    The formula fits in a column of a two-column article. In a wide array, the space between the columns is
-    reduced. If the array is still too wide, equations are printed instead.
+    The array fits in a column of a two-column article. In a wide array, the space between the columns is
+    reduced. If the array is still too wide, the function returns equations instead of the array.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
