@@ -1,17 +1,18 @@
-"""Parametrisations of the exponentials of commutator-free methods. There is one for all methods and one for
-symmetric methods.
+"""Parametrisations of the exponentials of commutator-free methods. One parametrisation describes all methods.
+Another parametrisation describes symmetric methods.
 
-A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Let bar X be the exponent X in which stages j
-and s + 1 - j are exchanged. The method is symmetric under two conditions on the update and on the values Q_i
-of the stages:
+A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Each exponent is a linear combination of the
+vector fields at the stages. For an exponent X, bar X denotes the exponent in which the coefficients of stages
+j and s + 1 - j are exchanged for all j. Let Q_i be the value of stage i. The method is symmetric if the
+following two conditions are satisfied:
 
-- Y_(m+1-J) = bar Y_J for all J.
-- For each stage i, there are a number k and exponents X_1, ..., X_r with
+- Y_(m+1-J) = bar Y_J for J = 1, ..., m.
+- For each stage i, there are a number k from 0 to m and exponents X_1, ..., X_r with
 
       Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
       Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
-A step of length -h is then the inverse of a step of length h.
+A step of length -h of a symmetric method is the inverse of a step of length h.
 """
 
 from __future__ import annotations
@@ -25,14 +26,15 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. Each
-stage and the update are lists of exponentials. An exponential is a list of the names of its coefficients."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. A stage
+is a list of exponentials, and the update is such a list, too. An exponential is represented by the list of
+the names of its coefficients."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of all methods. Each stage has a coefficient in each exponential. For
-    explicit and diagonally implicit methods, constraints set some coefficients to zero. The first stage of an
-    explicit method has no exponentials.
+    """Return the parametrisation of all methods. In each exponential, the vector fields at all stages have
+    coefficients. For explicit and diagonally implicit methods, constraints set some coefficients to zero. The
+    first stage of an explicit method has no exponentials.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -58,8 +60,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. A stage begins with exponentials of the update. At
-    least one exponential follows that is not from the update.
+    """Return the parametrisation of symmetric methods. A stage begins with some exponentials of the update,
+    or with none. The stage ends with at least one exponential that has its own coefficients.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -79,8 +81,8 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` of the m exponentials of the update. In the first half of
-        # the stages, ``whole`` is (i - 1/2) m/s, rounded up.
+        # Stage i begins with the first ``whole`` of the m exponentials of the update. For i <= s/2, the
+        # number ``whole`` is (i - 1/2) m/s, rounded up. For stage s + 1 - i, it is m minus this number.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -58,7 +58,7 @@ class Problem:
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return the order conditions that are independent for the ansatz.
+        """Return order conditions that imply the required order for the methods of the ansatz.
 
         A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
         Theorem II.3.2). If p is even and a symmetric method has at least order p - 1, the method therefore
@@ -89,9 +89,9 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True, a
-        commutator-free ``method`` is replaced by the Runge-Kutta tableau to which it reduces on an abelian
-        group. All other methods are returned unchanged."""
+        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True and
+        ``method`` is commutator-free, this is the Runge-Kutta tableau to which ``method`` reduces on an
+        abelian group. In all other cases, it is ``method`` itself."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -108,10 +108,11 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program that evaluates all coefficients that are not constants, and then all weights b_i.
+        """Return a program that evaluates coefficients and weights.
 
-        The weights of a commutator-free method are those of the Runge-Kutta tableau to which it reduces on
-        an abelian group. For compositions and splittings, the program evaluates no weights.
+        The first outputs are the coefficients that are not constants. The remaining outputs are all weights
+        b_i. The weights of a commutator-free method are those of the Runge-Kutta tableau to which the method
+        reduces on an abelian group. For compositions and splittings, the program evaluates no weights.
         """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
@@ -120,9 +121,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices of the coefficients that must be positive. The option ``positive`` contains the
-        names of these coefficients. An index is a position in the outputs of the program
-        :attr:`coefficients`."""
+        """Return the indices of the coefficients that must be positive, as positions in the outputs of the
+        program :attr:`coefficients`. In the option ``positive``, the name b denotes all weights."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -136,8 +136,9 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """For each point, return the amounts by which coefficients violate their bounds, and the Jacobian of
-        these amounts."""
+        """Return two arrays. A row of the first array contains the amounts by which coefficients violate
+        their bounds at one point. The second array contains the derivatives of these amounts with respect to
+        the free coefficients."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -153,8 +154,9 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """For each point, return the residuals of the conditions, followed by the violations of the bounds
-        (:meth:`bounds`). The second value contains the Jacobian for each point."""
+        """Return two arrays. A row of the first array contains the residuals of the conditions at one point,
+        followed by the violations of the bounds (:meth:`bounds`). The second array contains the derivatives
+        of these numbers with respect to the free coefficients."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
@@ -175,8 +177,8 @@ class Problem:
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
     """Return the equations of a search for methods of the given order in the family ``label``. ``structure``
-    is the name of the parametrisation of the coefficients. The eight most recent problems are cached, so that
-    a repeated call returns the same object.
+    is the name of the parametrisation of the coefficients. The eight most recently used problems are cached.
+    For a cached problem, the function returns the same object again.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

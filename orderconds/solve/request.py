@@ -1,4 +1,4 @@
-"""The function ``solve`` of the Python interface, which searches for a method of a given order."""
+"""The search for a method of a given order in the Python interface: the function ``solve``."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs the trees of these orders.
+    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs trees up to this order.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
@@ -170,8 +170,8 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return the bound on the absolute values of the coefficients as a fraction. Return None if there is no
-    bound."""
+    """Convert the argument ``size`` of :func:`solve` to a fraction. None means no bound, and is returned
+    unchanged."""
     if size is None:
         return None
     try:

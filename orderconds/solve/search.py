@@ -101,8 +101,8 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Search from the random starting points of batch ``number``. The returned batch contains the solutions
-    with the lowest scores, at most :data:`KEPT`. :class:`Batch` defines the score.
+    """Search from the random starting points of batch ``number``. The returned batch contains at most
+    :data:`KEPT` solutions, namely those with the lowest scores. :class:`Batch` defines the score.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -187,7 +187,7 @@ class Checkpoint:
             write_whole(self.path, json.dumps(record) + "\n")
 
     def remove(self) -> None:
-        """Delete the checkpoint file after the search has ended."""
+        """Delete the checkpoint file."""
         if self.path is not None:
             self.path.unlink(missing_ok=True)
 
@@ -213,10 +213,10 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Take finished batches from the checkpoint,
-    and add each new batch to the checkpoint.
+    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Batches in the checkpoint are not computed
+    again. Each new batch is added to the checkpoint.
 
-    If ``cluster`` is the address of a dask cluster, all new batches run on the cluster. Raises
+    If ``cluster`` is the address of a dask cluster, all new batches are computed on the cluster. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

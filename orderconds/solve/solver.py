@@ -1,5 +1,5 @@
-"""The steps of ``orderconds solve``. First try to prove that no method exists. If there is no such proof,
-search for methods. Return the best method whose order can be proved."""
+"""The command ``orderconds solve``. The command first tries to prove that no method exists. If this proof
+fails, the command searches for a method and proves the order of the method."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ search minimises the principal error. Otherwise, PLAIN is used."""
 class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
-    ``best`` is the least residual norm of all random starts. The search tries several parametrisations of the
-    coefficients. ``tried`` contains one line of text about each of them, and ``structure`` is the name of the
-    last one.
+    ``best`` is the least residual norm of all random starts. The search tries parametrisations of the
+    coefficients, one after another. ``tried`` contains one line of text about each parametrisation.
+    ``structure`` is the name of the parametrisation that was tried last.
     """
 
     solution: Solution | None = None
@@ -41,7 +41,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """A request for a search, with the options of the command ``orderconds solve``."""
+    """The options of a search, as in the command ``orderconds solve``."""
 
     family: str
     order: int
@@ -102,8 +102,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the names of the parametrisations of the coefficients that the specification allows. Raises
-    InputError if no parametrisation is allowed, or if the options contradict each other."""
+    """Return the names of the parametrisations that the options of the search allow. Raises InputError if the
+    options allow no parametrisation, or if they contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -154,16 +154,19 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    # The search with this parametrisation has ended, so that its checkpoint is no longer needed.
+    # The checkpoint is needed only until the search with this parametrisation ends.
     checkpoint.remove()
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return a pair. The first value is the best solution whose order can be proved, or None. At most
-    eight solutions are tried. The second value is the error message of the last failed proof. If no proof
-    failed in this call, the second value is the argument ``refused``, the message from earlier calls."""
+    """Return a solution whose order is proved, and an error message.
+
+    The function tries to prove the order of the eight solutions with the lowest scores, and returns the first
+    solution for which a proof succeeds. If all proofs fail, the returned solution is None. The message is
+    that of the last failed proof. If no proof fails, the message is the argument ``refused``.
+    """
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

@@ -11,7 +11,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Spec:
-    """The required properties of a method, which are options of ``orderconds solve``.
+    """The required properties of a method. Each property is an option of ``orderconds solve``.
 
     - ``dirk``: whether the method is diagonally implicit
     - ``fsal``: whether the last stage equals the result of the step (first same as last)
@@ -39,8 +39,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which are
-    not available for ``family``.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets an option that is not available for
+    ``family``. ``options`` contains the names of the options that are not available.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

@@ -24,8 +24,9 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind. In the array of values, the rows with indices ``left`` and ``right`` contain
-    the arguments. Rows ``start`` to ``stop`` - 1 contain the results."""
+    """Operations of one kind that do not depend on each other. The array of values has one row for each
+    operation. ``left`` and ``right`` contain the indices of the rows of the first and second operands. Rows
+    ``start`` to ``stop`` - 1 contain the results."""
 
     kind: int
     start: int
@@ -33,13 +34,14 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """If ``kind`` is ROOT: the degree n of each n-th root. Other kinds do not use this array."""
+    """The degree n of each n-th root, if ``kind`` is ROOT. For other kinds, the array is not used."""
 
 
 class Tape:
     """A recorded program that computes outputs from inputs, in double precision.
 
-    ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`, which records the program.
+    All ``outputs`` are elements of the same ring :class:`~orderconds.ring.traces.Traces`. The arithmetic of
+    this ring records the operations of the program.
     ``width`` is the number of inputs.
 
     >>> from orderconds.ring.traces import Traces
@@ -55,8 +57,8 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # If an output is a constant, no operation computes it. ``placed`` then records the constant as an
-        # operation.
+        # An output can be a constant that is not yet an operation of the program. The method ``placed``
+        # records such a constant as an operation.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -80,7 +82,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        # If a search diverges, residuals overflow. Suppress the warnings of numpy.
+        # Residuals can overflow if a search diverges. Suppress the warnings of numpy in this case.
         with np.errstate(all="ignore"):
             for level in self._levels:
                 out = values[level.start : level.stop]
@@ -92,13 +94,13 @@ class Tape:
         return values
 
     def values(self, points: Floats) -> Floats:
-        """Return the outputs at ``points``. The shape of ``points`` is (points, inputs), and the shape of the
-        result is (points, outputs)."""
+        """Return the outputs at ``points``. A row of ``points`` contains the inputs at one point. A row of
+        the result contains the outputs at one point."""
         return np.ascontiguousarray(self._forward(points)[self._outputs].T)
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the outputs, and the Jacobians of the outputs. The shape of the Jacobians is (points,
-        outputs, inputs)."""
+        """Return the outputs at ``points``, and their derivatives. The derivative at index [k, i, j] is that
+        of output i with respect to input j, at point k."""
         part = max(1, MOST_SLOPES // max(1, self.length * self.width))
         if len(points) <= part:
             return self._jacobians(points)
@@ -139,8 +141,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of the required operations, sorted by level and kind. All inputs are required, and
-    also all operations on which the outputs ``wanted`` depend."""
+    """Return the indices of the required operations, sorted by level and kind. An operation is required if it
+    is an input, or if an output in ``wanted`` depends on it."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -1,8 +1,9 @@
 """Lie algebra elements as text in tableau files, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element that the
-file defines earlier. The commutator is ``[x,y] = x y - y x``. Products such as ``S*S`` are allowed only for
-quadratic Lie groups, where the Cayley map replaces the exponential.
+file defines earlier. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``. The last
+factor of a product acts first. Tableau files may contain products such as ``S*S`` only for quadratic Lie
+groups, where the Cayley map replaces the exponential.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Product(Struct, frozen=True):
 
 
 Term = int | str | Bracket | Product
-"""A node (counted from 0), a named element, a bracket or a product."""
+"""A node, the name of an element, a bracket or a product. Nodes are counted from 0."""
 Combination = tuple[tuple[Term, Element], ...]
 """A linear combination: pairs of a term and its coefficient."""
 
@@ -107,9 +108,10 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to a pair of numbers. A term expands to a sum of products of the
-    vector fields at the nodes. The pair contains the least and the greatest number of factors in these
-    products. ``elements`` maps each name in a term to its definition.
+    """Return a function that maps a term to the least and the greatest degree in its expansion.
+
+    The expansion of a term is a sum of products of the vector fields at the nodes. The degree of a product is
+    the number of its factors. ``elements`` maps each name that a term can contain to a linear combination.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -128,15 +130,15 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of factors of the products in a sum.
+    """Return the least and the greatest degree in the expansion of a linear combination of terms.
 
-    The sum is the expansion of a linear combination of brackets into products of the vector fields at the
-    nodes. ``extent`` returns the two numbers for a single term.
+    The expansion is a sum of products of the vector fields at the nodes. The degree of a product is the
+    number of its factors. For a single term, ``extent(term)`` returns the least and the greatest degree.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty sum contains no product, and the minimum of an empty list is undefined. Return (1, 1) instead.
+    # An empty combination has no degrees. By convention, the result is then (1, 1).
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
@@ -175,7 +177,7 @@ def _expanded(term: Term, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSe
 
 
 def _times(x: NodeSeries, y: NodeSeries, ring: Ring) -> NodeSeries:
-    """Return the product xy, in which y acts first."""
+    """Return the product of ``x`` and ``y``. The factor ``y`` acts first."""
     result: NodeSeries = {}
     for u, a in x.items():
         for v, b in y.items():

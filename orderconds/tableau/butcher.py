@@ -1,5 +1,5 @@
-r"""Tableaux in LaTeX or HTML. A Butcher tableau is printed as an array. All other methods are printed as
-equations (:mod:`orderconds.tableau.equations`)."""
+r"""Printing of methods in LaTeX or HTML. A Runge-Kutta method is printed as a Butcher array if the array is
+small enough. In all other cases, the method is printed as equations (:mod:`orderconds.tableau.equations`)."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ SPACED = r" \\[2pt] "
 rows would touch."""
 
 NARROWER = r"\!"
-"""LaTeX code of a negative space. If an array is too wide, this space is placed on both sides of each
+"""LaTeX code of a negative space. In a wide array, one or two such spaces are placed on both sides of each
 entry."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return the Butcher array in LaTeX. For methods without a Butcher array, return equations.
+    r"""Return the LaTeX code of the Butcher array. For methods without a Butcher array, return equations.
 
-    The formula fits in a column of a two-column article. In a wide array, the space between the columns is
-    reduced. If the array is still too wide, equations are printed instead.
+    The array fits in a column of a two-column article. In a wide array, the space between the columns is
+    reduced. If the array is still too wide, the function returns equations instead of the array.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -49,7 +49,7 @@ def tableau_latex(tableau: Tableau) -> str:
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
     the rows of the weights (``below``). Return None if the array is too wide for a column of an article, or
-    if a coefficient contains the name of a number."""
+    if a coefficient contains a symbol for a number, as in ``1 - 2*g``."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -99,9 +99,12 @@ def _html(text: str) -> str:
 
 
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
-    """Return the texts of the rows of a Butcher array: c_i and a_ij for each stage, then the rows of weights.
-    Zeros at the end of a row of A are blank. Return None for a method without a Butcher array, or with more
-    than :data:`WIDEST` stages."""
+    """Return the entries of a Butcher array as text, in two lists of rows.
+
+    The first list contains a row for each stage i: the node c_i, followed by the coefficients a_ij. Zeros at
+    the end of such a row are blank. The second list contains the rows of weights. Return None for a method
+    without a Butcher array, or with more than :data:`WIDEST` stages.
+    """
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:
         return None
