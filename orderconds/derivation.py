@@ -17,7 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of order n. A derivation is also a sequence of all conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. Iteration, ``len`` and indices refer to the
+    sequence of all conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)

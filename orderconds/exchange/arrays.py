@@ -41,9 +41,9 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""The least number of significant digits of a rounded decimal.
+"""A decimal in a file of another program counts as rounded if it has at least 12 significant digits.
 
-In files of other programs, a shorter decimal, such as 0.5, is taken as an exact number.
+A shorter decimal, such as 0.5, counts as exact.
 """
 
 
@@ -85,10 +85,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file. Formulas replace the names of numbers.
+    """Return a tableau as keys and values, with formulas in place of the names of numbers.
 
-    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms.
-    Rounded coefficients keep the digits of the file.
+    If a named number is a root of a polynomial without a formula, the name remains. Fractions are in lowest
+    terms. Rounded coefficients have the same digits as in the file of the tableau.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -104,8 +104,10 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return the text of a coefficient. An exact decimal with at least :data:`ROUNDED` digits becomes a
-    fraction, because :func:`coefficient` would read the decimal as rounded.
+    """Return a coefficient as the text for an exported file. A long exact decimal becomes a fraction.
+
+    The import of the file would take a decimal of 12 or more digits as rounded (see :data:`ROUNDED`).
+    A decimal that ends with ``~`` is rounded already, and is not changed.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')

@@ -1,6 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
 
-The reader accepts initialisers ``... NAME_A[..][..] = {{...}};`` and prefers the exact values in comments.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a comment
+beside a number contains the exact value, the comment is read instead of the number.
 """
 
 from __future__ import annotations

@@ -86,8 +86,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, so that the user sees the error. If ``strict`` is true, a file that
-    resembles a tableau must be read, too.
+    A damaged file must be read, so that the user sees the error. By default, a file that only resembles a
+    tableau is skipped. An example is a JSON file that contains a matrix under an unknown key. If ``strict``
+    is true, such a file must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

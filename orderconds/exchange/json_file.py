@@ -27,9 +27,9 @@ def write(data: Data) -> bytes:
 def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
-    A missing key ``family`` is added. A number with a decimal point or an exponent becomes a text
-    (:func:`~orderconds.exchange.arrays.coefficient`). If the number was probably printed from a double, the
-    text ends with ``d``.
+    If the object has no key ``family``, the key is added, and its value is determined from the arrays. A
+    number with a decimal point or an exponent becomes a text. This text ends with ``d`` if the number has
+    the digits of a printed double.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

@@ -1,7 +1,7 @@
-r"""Tableaux in LaTeX. A Butcher tableau is an ``array`` with horizontal rules. The coefficients of methods
-of other families are matrices.
+r"""Tableaux in LaTeX. The coefficients are in a Butcher tableau or in named matrices.
 
-The reader accepts arrays ``\begin{array}{c|cc}`` and matrices ``A = \begin{pmatrix} ... \end{pmatrix}``.
+A Butcher tableau is an array with lines, such as ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
+the form ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
     """Return the double nearest to a coefficient. For nested lists, replace each coefficient by the nearest
     double.
 
-    ``roots`` contains the definitions of named roots, as JSON.
+    A coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -94,7 +94,9 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
 
 @lru_cache(maxsize=4096)
 def nearest(text: str, roots: str = "{}") -> float:
-    """Return the double nearest to a coefficient. ``roots`` contains the definitions of named roots, as JSON.
+    """Return the double nearest to a coefficient.
+
+    The coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
@@ -119,7 +121,8 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an archive, and return it as the keys and values of a tableau file.
 
-    Raises an error if a float in ``A`` is not the double nearest to the exact value in ``A_exact``.
+    An archive can contain a matrix of doubles, such as ``A``, and an array ``A_exact`` of exact values as
+    text. This function raises an error if a double is not the one nearest to the exact value.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
