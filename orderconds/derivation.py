@@ -1,4 +1,4 @@
-"""The order conditions of a family up to a given order, as one record."""
+"""Derive the order conditions of a family up to a given order."""
 
 from __future__ import annotations
 

@@ -34,9 +34,9 @@ FORMATS = {
 
 
 def export(data: Data, to: str) -> bytes:
-    """Return the content of a file in the format ``to``.
+    """Return a tableau as the content of a file in the format ``to``.
 
-    The content is read back to verify that it gives the same tableau. Raises
+    To find errors, this function reads the content and compares the result with the given tableau. Raises
     :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
     represent.
 
@@ -86,7 +86,7 @@ def _completed(data: Data, where: str, name: str) -> Data:
 
 
 def order_on_vector_spaces(tableau: Tableau) -> int:
-    """Return the order of a method for differential equations on vector spaces.
+    """Return the classical order of a method, that is, its order on vector spaces.
 
     >>> order_on_vector_spaces(Tableau.load("cg4"))
     4

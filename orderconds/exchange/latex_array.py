@@ -98,7 +98,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _texts(text: str) -> Arrays:
-    """Return the names and texts in the comments before the first formula, such as ``% name: heun``."""
+    """Read the comments at the beginning of a file. The comment ``% name: heun`` gives {"name": "heun"}."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):
