@@ -1,8 +1,9 @@
-"""An order condition consists of a tree, a formula in the coefficients of the method, and a number ``rhs``.
+"""An order condition is an equation ``formula = rhs`` for one tree.
 
-The formula is the coefficient of the tree in the series of the method. The number is the coefficient of the
-tree in the series of the exact flow. A condition holds if ``formula = rhs``. A method has order p if
-and only if all conditions of the orders 1, ..., p hold.
+The numerical solution and the exact solution are series with one term for each tree. ``formula`` is the
+coefficient of the tree in the numerical solution. It depends on the parameters of the method, such as a_ij
+and b_i. The number ``rhs`` is the coefficient of the same tree in the exact solution. A method has order p
+if and only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ SHOWN = 80
 
 @dataclass(frozen=True, repr=False)
 class OrderCondition:
-    """An order condition: a formula in the coefficients of a method must be equal to the number ``rhs``.
+    """An order condition: a formula in the parameters of a method must be equal to the number ``rhs``.
 
-    The formula is the coefficient of ``tree`` in the series of the method. The number is the coefficient of
-    ``tree`` in the series of the exact flow.
+    The formula is the coefficient of ``tree`` in the series of the numerical solution. The number is the
+    coefficient of ``tree`` in the series of the exact solution.
 
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.
@@ -67,7 +68,7 @@ class OrderCondition:
 
     @property
     def latex_equation(self) -> str:
-        """The condition in LaTeX, as the equation of its two sides."""
+        """The condition in LaTeX: left-hand side = right-hand side."""
         return f"{self.latex} = {latex_fraction(self.rhs)}"
 
     def sympy(self) -> Any:

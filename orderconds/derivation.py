@@ -1,4 +1,4 @@
-"""The order conditions of a family up to a given order, as one record."""
+"""Derive the order conditions of a family up to a given order."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of order n. A derivation is also a sequence of all conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. Iteration, ``len`` and indices refer to the
+    sequence of all conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)

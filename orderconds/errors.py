@@ -7,10 +7,10 @@ from __future__ import annotations
 
 
 class InputError(Exception):
-    """Bad input or usage.
+    """The error for input that is not valid, or for a command that is used wrongly.
 
     ``found`` describes the problem, ``where`` is the file, key or option, ``expected`` describes valid
-    input, and ``hint`` is a suggestion. Empty parts are omitted from the message.
+    input, and ``hint`` is a suggestion. The message consists of these texts. It omits empty texts.
     """
 
     def __init__(self, found: str, *, where: str = "", expected: str = "", hint: str = "") -> None:
@@ -35,4 +35,7 @@ class UnknownName(InputError):
 
 
 class ZeroWeight(InputError):
-    """The error for a weight b_i = 0 in a family whose formulas divide by b_i (SPRK, VCG, VRKMK, VCF)."""
+    """The error for a weight b_i = 0 in a family whose formulas divide by b_i.
+
+    Examples are the families ``sprk``, ``vcg``, ``vrkmk`` and ``vcf``.
+    """

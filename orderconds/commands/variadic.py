@@ -1,8 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
 In commands of the class :class:`Variadic`, a repeatable option after the first argument may have several
-values: ``bench dipole --method cf4 rkmk:rk4``. A repeatable option before the first argument has one value:
-in ``bench --method cf4 dipole``, the word ``dipole`` is the argument.
+values: ``bench dipole --method cf4 rkmk:rk4``. A repeatable option before the first argument has only one
+value. In ``bench --method cf4 dipole``, the word ``dipole`` is the argument and not a second value.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import click
 
 
 class Variadic(click.Command):
-    """A command whose repeatable options accept one or more values.
+    """A command in which several values may follow the name of a repeatable option.
 
     >>> @click.command("show", cls=Variadic)
     ... @click.argument("scene")
@@ -26,8 +26,9 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Repeat the name of an option for each of its values, and call click's parser: ``-m a b`` becomes
-        ``-m a -m b``."""
+        """Parse the arguments with click. Before this, replace ``-m a b`` by ``-m a -m b``, because click
+        expects one value after each name of an option.
+        """
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
         valued = {name for p in options if not p.is_flag for name in p.opts}

@@ -34,9 +34,9 @@ FORMATS = {
 
 
 def export(data: Data, to: str) -> bytes:
-    """Return the content of a file in the format ``to``.
+    """Return a tableau as the content of a file in the format ``to``.
 
-    The content is read back to verify that it gives the same tableau. Raises
+    To find errors, this function reads the content and compares the result with the given tableau. Raises
     :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
     represent.
 
@@ -61,10 +61,11 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
-    """Return the keys and values of a file in the format ``of``. ``name`` is used if the file states no name.
+    """Return the keys and values of the tableau in a file. ``of`` is the format of the file.
 
-    If the file does not state the order of its embedded weights, this function computes the order. Raises
-    :class:`~orderconds.errors.InputError` for content that cannot be read. The message contains ``where``.
+    If the file contains no name, the tableau gets the name ``name``. If the file contains embedded weights
+    without their order, this function computes the order. Raises :class:`~orderconds.errors.InputError` if
+    the content cannot be read. The error message contains the text ``where``, such as the path of the file.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -74,7 +75,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data`` with the key ``name``. If embedded weights have no order, compute and add it."""
+    """Return ``data``, and add the name and the order of the embedded method if they are missing."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -85,7 +86,7 @@ def _completed(data: Data, where: str, name: str) -> Data:
 
 
 def order_on_vector_spaces(tableau: Tableau) -> int:
-    """Return the order of a method for differential equations on vector spaces.
+    """Return the classical order of a method, that is, its order on vector spaces.
 
     >>> order_on_vector_spaces(Tableau.load("cg4"))
     4
@@ -97,7 +98,7 @@ def order_on_vector_spaces(tableau: Tableau) -> int:
 
 
 PYTHON = "sympy"
-"""The name of the format of Python modules. The format is named after SymPy, which exported modules use."""
+"""The name of the format of Python modules. The exported modules import SymPy."""
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:

@@ -1,15 +1,16 @@
-"""A tableau as named arrays of coefficients in text form. The formats CSV, NumPy, SymPy, LaTeX and C store
-these arrays.
+"""A tableau as arrays with names. The entries are coefficients as text. The formats CSV, NumPy, SymPy, LaTeX
+and C store these arrays.
 
-The families have these arrays:
+The names of the arrays depend on the family:
 
 - ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
-  ``exponentials`` is one factor. ``count`` contains the number of factors of each product. ``start`` contains
-  the stage from which each product starts, or 0 for y0. The products are the
-  stages, the update and, in an embedded method, the embedded update.
+- ``cf``: exponentials, count and start. Each stage applies a product of exponentials to a start value. The
+  update and the embedded update have the same form. Each row of ``exponentials`` contains the coefficients of
+  one exponential. ``count`` contains the number of exponentials in each product. ``start`` contains a number
+  for each product: 0 if the start value is y0, and i if the start value is stage i. The order of the products
+  is: all stages, the update, the embedded update.
 
 The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
 """
@@ -41,17 +42,17 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""The least number of significant digits of a rounded decimal.
+"""A decimal in a file of another program counts as rounded if it has at least 12 significant digits.
 
-In files of other programs, a shorter decimal, such as 0.5, is taken as an exact number.
+A shorter decimal, such as 0.5, counts as exact.
 """
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
-    """Return the arrays for the keys and values of a tableau file.
+    """Return the arrays of a tableau. ``data`` contains the keys and values of the tableau file.
 
-    Raises :class:`TableauError` if arrays cannot represent the methods of the family. In the message
-    of the error, ``target`` is the name of the output format.
+    Raises :class:`TableauError` for a family whose methods cannot be represented by arrays. The error
+    message contains ``target``, the name of the output format.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -85,10 +86,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file. Formulas replace the names of numbers.
+    """Return a tableau as keys and values, with formulas in place of the names of numbers.
 
-    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms.
-    Rounded coefficients keep the digits of the file.
+    If a named number is a root of a polynomial without a formula, the name remains. Fractions are in lowest
+    terms. Rounded coefficients have the same digits as in the file of the tableau.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -104,8 +105,10 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return the text of a coefficient. An exact decimal with at least :data:`ROUNDED` digits becomes a
-    fraction, because :func:`coefficient` would read the decimal as rounded.
+    """Return a coefficient as the text for an exported file. A long exact decimal becomes a fraction.
+
+    The import of the file would take a decimal of 12 or more digits as rounded (see :data:`ROUNDED`).
+    A decimal that ends with ``~`` is rounded already, and is not changed.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
@@ -219,8 +222,9 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a tableau file. A missing key ``family`` is added if the arrays determine
-    the family.
+    """Return the keys and values of a tableau file. If the key ``family`` is missing, add it.
+
+    The family is determined from the names of the arrays. Without arrays, the key remains missing.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -235,8 +239,8 @@ def with_family(data: Data) -> Data:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero. Blank cells
-    in columns beyond the last stage are ignored.
+    The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero. If a row
+    has more coefficients than the method has stages, blank cells at its end are removed.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]

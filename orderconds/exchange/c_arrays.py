@@ -1,6 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
 
-The reader accepts initialisers ``... NAME_A[..][..] = {{...}};`` and prefers the exact values in comments.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a comment
+beside a number contains the exact value, the comment is read instead of the number.
 """
 
 from __future__ import annotations
@@ -92,9 +93,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source without strings and most comments, and the texts of the comments before the arrays.
+    """Return two values. The first is the C source without strings and without comments outside arrays. The
+    second is the list of the comments before the first array.
 
-    The comments inside arrays remain in the source, because they contain the exact values of numbers.
+    Comments ``/* ... */`` inside arrays remain in the source, because they contain exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

@@ -13,7 +13,7 @@ _ESCAPED = re.compile(r"\\(?:\\|/|u[0-9a-f]{4}|U[0-9a-f]{8})")
 
 
 def escaped(text: str) -> str:
-    r"""Return a text as one line without control characters.
+    r"""Return a text as one line for a comment. Characters that a comment cannot contain are escaped.
 
     >>> print(escaped("a\nb */ c\\d"))
     a\u000ab *\/ c\\d

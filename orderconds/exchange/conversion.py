@@ -11,7 +11,7 @@ from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
 
 _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
-"""The pattern of an integer, a decimal, or a double with the suffix ``d``."""
+"""The pattern of an integer or a decimal. The suffix ``d`` marks a double."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
@@ -35,8 +35,8 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file. Each text that is an integer, a decimal or a double
-    (``0.5d``) becomes a float."""
+    """Return a copy of ``data``. In lists and tables, a text such as ``1``, ``0.5`` or ``0.5d`` becomes a
+    float."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -1,12 +1,12 @@
-"""CSV tables. Each line consists of a name and a vector, or of a name and one row of a matrix.
+"""CSV tables. A line contains the name and the entries of a vector, or of one row of a matrix.
 
-The reader also accepts a plain Butcher tableau, in the layout of textbooks. Its line i contains c_i and row i
-of A. The next line begins with an empty cell and contains the weights b. A second line with an empty first
-cell contains embedded weights. All other blank cells are zeros. Cells are separated by commas, semicolons or
-tabs. Comments (``#``) and a header are ignored.
+Instead of these lines, a file may contain a plain Butcher tableau, in the layout of textbooks. For each stage
+i, one line contains c_i and row i of A. The line below the stages begins with an empty cell and contains the
+weights b. One more line with an empty first cell may contain embedded weights. Empty cells elsewhere are
+zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
 
-Each of the lines ``claims,rk=4`` and ``order,4`` claims that the method has order 4. The line
-``embedded_order,3`` states the order of the embedded weights.
+The line ``order,4`` claims order 4 in the family of the tableau. The line ``claims,rk=4`` claims order 4 in
+the family ``rk``. The line ``embedded_order,3`` states the order of the embedded weights.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from orderconds.tableau.file_format import Data
 NAMES = (*TEXTS, *ROWS, *MATRICES)
 """The names that may be in the first cell of a line of a CSV file."""
 WEIGHTS = ("b", "embedded_b")
-"""The names that may begin a line of weights in a plain Butcher tableau (:func:`_is_plain`)."""
+"""Names that a Butcher tableau may contain in place of the empty cell before the weights."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -87,10 +87,10 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau.
+    """Return True if a CSV table is read as a plain Butcher tableau.
 
-    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a number or an
-    empty cell.
+    This is the case under two conditions. No row begins with the name of a matrix. At least one row begins
+    with a cell that is not in ``NAMES``, such as a number or an empty cell.
     """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)

@@ -21,7 +21,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a text file in a folder of tableaux. It lists tableaux whose orders need no proof."""
+"""The name of a text file in a folder of tableaux. The file lists tableaux that need no proof of their order
+when ``orderconds check`` verifies the folder."""
 
 NO_KEY = "contains no key of a tableau, such as family, A or b"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -32,7 +33,11 @@ _LATEX = re.compile(
 
 @dataclass
 class Folder:
-    """The files below a folder: the paths of tableaux, and pairs (path, reason) of skipped files."""
+    """The files below a folder.
+
+    ``tableaux`` contains the paths of the tableaux. ``skipped`` contains a pair (path, reason) for each
+    skipped file.
+    """
 
     tableaux: list[str] = field(default_factory=list)
     skipped: list[tuple[str, str]] = field(default_factory=list)
@@ -86,8 +91,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, so that the user sees the error. If ``strict`` is true, a file that
-    resembles a tableau must be read, too.
+    A damaged file must be read, so that the user sees the error. By default, a file that only resembles a
+    tableau is skipped. An example is a JSON file that contains a matrix under an unknown key. If ``strict``
+    is true, such a file must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

@@ -1,8 +1,8 @@
 """JSON files, which contain the same keys and values as a tableau file in TOML.
 
-The decimal ``0.5`` is exact, and ``0.3333333333333333`` is a double: decimals are read by
-:func:`~orderconds.exchange.arrays.coefficient`. If a file states no family, its arrays determine the family.
-The value of the key ``claims`` may be a text such as ``"rk=4"``.
+A short decimal, such as ``0.5``, is exact. A decimal with the digits of a printed double, such as
+``0.3333333333333333``, is a double. If a file states no family, the family is determined from the arrays. The
+value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -27,9 +27,8 @@ def write(data: Data) -> bytes:
 def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
-    A missing key ``family`` is added. A number with a decimal point or an exponent becomes a text
-    (:func:`~orderconds.exchange.arrays.coefficient`). If the number was probably printed from a double, the
-    text ends with ``d``.
+    If the key ``family`` is missing, the family is determined from the arrays. A number with a decimal point
+    or an exponent becomes a text. This text ends with ``d`` if the number has the digits of a printed double.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

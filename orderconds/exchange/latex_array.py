@@ -1,7 +1,7 @@
-r"""Tableaux in LaTeX. A Butcher tableau is an ``array`` with horizontal rules. The coefficients of methods
-of other families are matrices.
+r"""Tableaux in LaTeX. The coefficients are in a Butcher tableau or in named matrices.
 
-The reader accepts arrays ``\begin{array}{c|cc}`` and matrices ``A = \begin{pmatrix} ... \end{pmatrix}``.
+A Butcher tableau is an array with lines, such as ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
+the form ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _texts(text: str) -> Arrays:
-    """Return the names and texts in the comments before the first formula, such as ``% name: heun``."""
+    """Read the comments at the beginning of a file. The comment ``% name: heun`` gives {"name": "heun"}."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):

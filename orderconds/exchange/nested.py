@@ -13,9 +13,9 @@ MAX_DEPTH = 3
 
 
 def nested(text: str, opening: str, closing: str, where: str) -> Cells:
-    """Return the texts of the cells in one bracketed expression, as nested lists.
+    """Return the cells of a nested array in source text. ``opening`` and ``closing`` are its brackets.
 
-    A comma within parentheses does not separate cells.
+    Commas separate the cells. A comma within parentheses is part of a cell.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]

@@ -1,6 +1,6 @@
-"""Convert coefficients between tableau files and SymPy source, and read coefficients in LaTeX.
+"""Convert a coefficient of a tableau file to SymPy source. Convert SymPy source or LaTeX to a coefficient.
 
-The module :mod:`orderconds.tableau.coefficient_latex` writes LaTeX.
+The conversion of a coefficient to LaTeX is in the module :mod:`orderconds.tableau.coefficient_latex`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
 def to_python(text: str) -> str:
-    """Return a coefficient of a tableau file as Python source that uses SymPy. Exact numbers are not rounded.
+    """Convert a coefficient of a tableau file to SymPy source. An exact number remains exact.
 
     >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
@@ -63,7 +63,7 @@ def _python(x: Expression, tight: int) -> str:
 
 
 def from_python(text: str) -> str:
-    """Return SymPy source in the notation of tableau files. The source is not executed.
+    """Convert SymPy source of a number to the notation of tableau files. The source is not executed.
 
     >>> from_python("Rational(1, 4) - sqrt(3)/6"), from_python("2**(2/3)/3"), from_python("Float('0.57735')")
     ('(1/4) - sqrt(3)/6', '2^(2/3)/3', '0.57735~')

@@ -1,8 +1,9 @@
-"""NumPy archives (``.npz``). The array ``A`` contains doubles, and the array ``A_exact`` contains the exact
-values as text.
+"""NumPy archives (``.npz``). Coefficients are stored twice. For example, the array ``A`` contains doubles.
+The array ``A_exact`` contains the exact values as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
-The entry ``order=4`` or ``claims="rk=4"`` of an archive claims that the method has order 4.
+An array ``order`` with the value 4 claims order 4 in the family of the tableau. An array ``claims`` contains
+claims as a text, such as ``rk=4``.
 """
 
 from __future__ import annotations
@@ -79,10 +80,9 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return the double nearest to a coefficient. For nested lists, replace each coefficient by the nearest
-    double.
+    """Convert a coefficient, or nested lists of coefficients, to the nearest doubles.
 
-    ``roots`` contains the definitions of named roots, as JSON.
+    A coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -94,7 +94,9 @@ def floats(value: Cells, roots: str = "{}") -> Floats:
 
 @lru_cache(maxsize=4096)
 def nearest(text: str, roots: str = "{}") -> float:
-    """Return the double nearest to a coefficient. ``roots`` contains the definitions of named roots, as JSON.
+    """Return the double nearest to a coefficient.
+
+    The coefficient may contain names of polynomial roots. ``roots`` is the JSON text that defines the names.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
@@ -119,7 +121,8 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an archive, and return it as the keys and values of a tableau file.
 
-    Raises an error if a float in ``A`` is not the double nearest to the exact value in ``A_exact``.
+    An archive can contain a matrix of doubles, such as ``A``, and an array ``A_exact`` of exact values as
+    text. This function raises an error if a double is not the one nearest to the exact value.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -176,7 +179,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error if the array is neither a vector nor a matrix of integers or doubles."""
+    """Require a vector or a matrix of integers or doubles. Raise an error for all other arrays."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} has {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":
@@ -186,7 +189,7 @@ def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> 
             f"the array {name} contains floats with {8 * size} bits",
             where=where,
             expected=EXPECTED,
-            hint="store the original coefficients as float64; converting float32 arrays adds no digits",
+            hint="store the original coefficients as float64; float32 arrays remain inaccurate if converted",
         )
     if kind not in "fiu":
         raise TableauError(f"the array {name} has the NumPy kind {kind!r}", where=where, expected=EXPECTED)
