@@ -1,7 +1,7 @@
-"""Reading of files that a user names. Only regular files are read. A file with more than a maximal number of
-bytes is refused.
+"""Reading of files that a user names. Files above a maximal size are refused.
 
-Pipes and devices are refused, because a read from them could block for ever or fill the memory.
+Pipes and devices are refused, too. A program that reads from a pipe or device could wait for ever or fill the
+memory.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Maximal size in bytes of a file that a person writes: a tableau, a scene (the description of a
-problem), a list of modules."""
+"""Maximal size in bytes of a file that a person writes, such as a tableau, a list of modules, or a scene (the
+description of a problem)."""
 
 MAX_WRITTEN_BYTES = 100_000_000
-"""Maximal size in bytes of a file that the program wrote itself and reads again: an emitted module, a
-manifest, a checkpoint."""
+"""Maximal size in bytes of a file that this program has written, such as an emitted module, a manifest, or a
+checkpoint."""
 
 
 def read_bytes(

@@ -1,5 +1,5 @@
-"""Packages with fast import. A module of such a package is imported when a name that the module defines is
-first used (PEP 562)."""
+"""Packages with fast import. The modules of a package are imported when their names are first used (PEP
+562)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import ModuleType
 
 
 class _LazyPackage(ModuleType):
-    """A package that imports a module when a name that the module defines is first used."""
+    """A package that imports each of its modules when a name from the module is first used."""
 
     def __getattr__(self, name: str) -> object:
         homes = self.__dict__["_homes"]
@@ -29,10 +29,10 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Make the modules of a package lazy: each module is imported when a name that it defines is first used.
+    """Make the modules of a package lazy: each module is imported when a name from the module is first used.
 
-    ``names`` maps each module of the package to these names. If an object and a module have
-    the same name, the package exports the object.
+    ``names`` maps each module to the names of the objects that the package exports from the module. If a
+    module and an exported object have the same name, the name denotes the object.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -45,8 +45,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # An earlier import may have stored a module under the name of an object. The stored module is
-        # removed, because the package exports the object.
+        # If a module and an exported object have the same name, an earlier import may have stored the module
+        # under this name. The module is removed, because the name must denote the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

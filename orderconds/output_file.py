@@ -21,9 +21,10 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
     """Write files under temporary names. When all files are on the disk, rename them in the given order.
 
-    If ``private`` is true, only the user can read the files. Otherwise the permissions of a
-    replaced file do not change. A symbolic link is replaced, and its target is not changed. After an error no
-    temporary file remains.
+    If ``private`` is true, only the user can read the files. If ``private`` is false and a file already
+    exists, the new file has the permissions of the old file. If a path is a symbolic link, the new file
+    replaces the link, and the target of the link is not changed. If an error occurs, the temporary files are
+    removed.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -34,8 +35,8 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     written: dict[Path, Path] = {}
     try:
         for path, content in contents.items():
-            # The temporary name contains only the beginning of the file's name, because the full name with a
-            # suffix could be longer than the file system allows.
+            # The temporary name contains only the first 40 characters of the final name. A name that contains
+            # the full final name could be longer than the file system allows.
             name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
             # The name is recorded before the file is created, because a signal may arrive between the
             # creation of the file and the next statement.

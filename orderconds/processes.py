@@ -29,9 +29,11 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the number of worker processes, by default the number of processors. The jobs run in this
-    process if there is only one job, if ``processes`` is 1, or if this process is itself a worker. An error
-    of a job in a worker is raised again in this process. Raises InputError if a worker was killed.
+    ``processes`` is the maximal number of worker processes. The default is the number of processors. If there
+    is only one job, or if ``processes`` is 1, no worker is started, and the calling process runs the jobs. A
+    worker that calls this function also runs the jobs itself.
+
+    If a job raises an error, this function raises the error, too. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -47,7 +49,8 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            # An empty tuple ends a worker. If the worker has already ended, ``send`` raises ConnectionError.
+            # A worker ends when it receives an empty tuple. If the worker has already ended, ``send`` raises
+            # ConnectionError.
             with suppress(ConnectionError):
                 connection.send(())
     except BaseException:
@@ -127,10 +130,10 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Add the traceback of this process to ``error`` as a note, and return the error.
+    """Return ``error`` with the traceback of this process as a note.
 
-    An error that cannot be pickled cannot be sent to the parent process. A RuntimeError with the same message
-    replaces it.
+    If ``error`` cannot be pickled, it cannot be sent to the parent process. Then a RuntimeError is returned
+    instead. The text of the RuntimeError contains the type and the message of ``error``.
     """
     import pickle
     import traceback

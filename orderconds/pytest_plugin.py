@@ -5,9 +5,11 @@ The plugin is active only if one of its flags is given. The flags ``--orderconds
 ``--orderconds-complete``, ``--orderconds-certified``, ``--orderconds-execute`` and ``--orderconds-tolerance``
 correspond to options of ``orderconds check``.
 
-Files without a tableau are skipped, and so are tableaux that claim no order. The skipped files and the
-reasons are printed at the end. With ``--orderconds-require-claims``, a tableau that claims no order fails.
-A Python file that contains a tableau is parsed and not imported. It is executed only with
+Files without a tableau are skipped. A tableau that claims no order is skipped, too, but with
+``--orderconds-require-claims`` the test of this tableau fails. At the end, each skipped file is printed with
+the reason.
+
+A Python file that contains a tableau is parsed and not imported. The file is executed only with
 ``--orderconds-execute``.
 """
 
@@ -23,14 +25,14 @@ import pytest
 FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
-    "--orderconds-complete": "like --orderconds, and require a claimed order in every family, unless it "
-    "follows from the order in another family",
-    "--orderconds-certified": "like --orderconds, and require a proof of every order",
-    "--orderconds-execute": "like --orderconds, and run Python files to obtain their arrays",
+    "--orderconds-complete": "like --orderconds; a tableau also fails if its order in a family is neither "
+    "claimed nor implied by its order in another family",
+    "--orderconds-certified": "like --orderconds; a claimed order without a proof fails",
+    "--orderconds-execute": "like --orderconds; a Python file is executed, and its arrays are read",
 }
 
 SKIPPED = pytest.StashKey[dict[str, str]]()
-"""The names of the skipped files, with the reason why each file is skipped."""
+"""A map from the name of each skipped file to the reason why the file is skipped."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -156,5 +158,5 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """The error for a file that fails the test: a claim does not hold or cannot be decided, or a required
-    claim is missing."""
+    """The error for a file that fails the test. It has one of three causes: a claim is false, a claim cannot
+    be decided, or a required claim is missing."""

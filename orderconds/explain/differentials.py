@@ -1,8 +1,9 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
-Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
-and y. ``f_zy`` is the partial derivative with respect to z and y. A Lyndon word denotes a commutator of
-vector fields. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+In the texts, ``f''(x, y)`` is the second derivative of f, applied to the vectors x and y. ``f_zy`` is the
+second partial derivative of f with respect to z and y. ``[A, B]`` is the commutator of A and B.
+
+The abbreviation HLW denotes the book by Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -39,9 +40,12 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x y]`` is the derivative x[y[f]] of f along the fields x and y. These fields are frozen: in a frame of
-    invariant fields, their components count as constants. The operator of a forest is the product of the
-    operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+    ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
+    ``f[y]`` along x, where y is treated as constant: its components in a frame of invariant vector fields are
+    not differentiated.
+
+    The operator of a forest is the product of the operators of its trees. The factors are separated by spaces
+    (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')
@@ -56,7 +60,7 @@ def frozen_differential(forest: levels.Forest) -> str:
 def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary differential of a tree of two colours (HLW III.2.1).
 
-    The system is y' = f(y, z), z' = g(y, z). A black vertex denotes f, a white vertex denotes g.
+    The system is y' = f(y, z) and z' = g(y, z). A black vertex denotes f, and a white vertex denotes g.
 
     >>> partitioned_differential(b"\0\3\2")
     'f_zy(g, f)'
@@ -67,10 +71,11 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 
 
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
-    r"""Return the elementary Hamiltonian of a tree with directed edges. The sign is omitted.
+    r"""Return the elementary Hamiltonian of a tree with directed edges, without the sign.
 
-    The equations of motion are q' = H_p, p' = -H_q. Each vertex denotes a derivative of H. An edge denotes a
-    derivative in q at the vertex where it begins, and a derivative in p at the vertex to which it points.
+    The equations of motion are q' = H_p and p' = -H_q. Each vertex denotes a partial derivative of H. Each
+    edge at the vertex adds one subscript to H: q if the edge begins at the vertex, and p if the edge points
+    to the vertex.
 
     >>> directed_hamiltonian(b"\0\3\2")
     'H_pq(H_q, H_p)'
@@ -79,10 +84,10 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 
 
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
-    r"""Return the elementary Hamiltonian of a tree whose neighbouring vertices have different colours. The
-    sign is omitted (HLW VI.7.2).
+    r"""Return the elementary Hamiltonian of a tree of two colours, without the sign (HLW VI.7.2).
+    Neighbouring vertices have different colours.
 
-    The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, a white vertex denotes V.
+    The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, and a white vertex denotes V.
 
     >>> separable_hamiltonian(b"\0\3\3")
     'T_pp(V_q, V_q)'
@@ -91,10 +96,10 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return the text of a word of Lie derivatives. A Lyndon word is written as a commutator, any other word
-    as a product.
+    """Return the text of the differential operator that a word denotes. Each letter denotes a Lie derivative.
 
-    In a product, the leftmost letter acts first.
+    A Lyndon word is written as a commutator. All other words are written as products. In a product, the
+    leftmost letter acts first.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

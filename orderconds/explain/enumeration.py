@@ -19,7 +19,7 @@ MAX_TREES = 100_000
 """The largest number of trees, forests or words that are enumerated."""
 
 DRAWN = 500
-"""The largest number of trees in one picture."""
+"""The largest number of trees that a notebook displays in one picture."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -71,7 +71,7 @@ class ShownTree:
 
 @dataclass(frozen=True, repr=False)
 class ShownTrees:
-    """All trees of one kind and one order, in a fixed sequence."""
+    """All trees of one kind and one order. Their sequence is the same in every run."""
 
     kind: Kind
     order: int
@@ -83,7 +83,8 @@ class ShownTrees:
 
     @property
     def conditions(self) -> Mapping[Member, OrderCondition]:
-        """A map from each tree, in the encoding of its kind, to its order condition."""
+        """A map from trees to their order conditions. The keys are encodings of the trees
+        (:data:`~orderconds.explain.kinds.Member`)."""
         return self.kind.conditions(self.order)
 
     def __iter__(self) -> Iterator[ShownTree]:
@@ -140,6 +141,6 @@ def trees(kind: str, order: int) -> ShownTrees:
             f"there are {members} trees or words of order {order}",
             where=f"trees {kind}",
             expected=f"at most {MAX_TREES}",
-            hint="lower the order; orderconds trees --count prints only their number",
+            hint="lower the order, or print only the number of trees: orderconds trees --count",
         )
     return ShownTrees(chosen, order)

@@ -17,17 +17,19 @@ from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
-"""A tree, forest or word. Each kind has its own encoding, such as a sequence of levels in bytes."""
+"""A tree, forest or word. Each kind of trees has its own encoding. For example, a rooted tree is encoded as
+bytes that contain the levels of its vertices."""
 
 
 MAX_TREES = 7_000
-"""The largest number of trees of one order for which conditions are derived."""
+"""Conditions of an order are derived only if the number of trees of this order is at most ``MAX_TREES``."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of trees, words or forests. A tree, word or forest of this kind is called a member. Five
-    attributes are functions:
+    """One kind of trees, words or forests. Each tree, word or forest of the kind is called a member.
+
+    Five attributes are functions:
 
     - ``members`` enumerates the members of an order.
     - ``count`` computes the number of members of an order without enumeration.
@@ -35,8 +37,8 @@ class Kind:
     - ``diagram`` returns the drawing of a member.
     - ``names`` returns the elementary differential or Hamiltonian of a member as text.
 
-    Each member has an order condition in one family of methods. If ``independent`` is true, these conditions
-    are independent.
+    The members have order conditions in the family of methods that :meth:`family` returns. If ``independent``
+    is true, these order conditions are independent of each other.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -52,8 +54,10 @@ class Kind:
     independent: bool = False
 
     def family(self) -> Family:
-        """Return the family whose order conditions ``orderconds trees --explain`` shows with the trees of
-        this kind."""
+        """Return the family of methods that the command ``orderconds trees --explain`` uses for this kind.
+
+        The command shows each tree with its order condition in this family.
+        """
         for name in families.names():
             family = families.family_class(name)
             if self.name in family.illustrates:
@@ -63,8 +67,8 @@ class Kind:
         )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
-        """Return a map from each member of the given order to its condition in the family that the method
-        :meth:`family` returns."""
+        """Return a map from the members of the given order to their order conditions in the family of methods
+        that :meth:`family` returns."""
         family = self.family()
         conditions = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in conditions}
@@ -113,9 +117,9 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees or words that index the conditions of a family.
+    r"""Return the kind of the trees or words to which the conditions of a family belong.
 
-    Return None if no kind is known for the family, as for the family rkn.
+    For some families, such as ``rkn``, no kind is known. Then the function returns None.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -125,8 +129,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of one order. The orders from 1
-    to ``order`` are tested.
+    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of an order between 1 and
+    ``order``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -137,7 +141,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
         trees = kind.count(n)
         if trees > MAX_TREES:
             raise InputError(
-                f"there are {trees} trees of order {n}, and more trees of higher orders",
+                f"there are {trees} trees of order {n}",
                 where=family.label(),
                 expected=f"at most {MAX_TREES}",
                 hint=f"lower the order to {n - 1}",
@@ -145,9 +149,9 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of the tree of a condition.
+    """Return the elementary differential or Hamiltonian of the tree to which a condition belongs.
 
-    If no kind of trees is known for the family, return the text of the attribute ``tree`` of the condition.
+    If :func:`of_family` returns None for the family of the condition, the result is ``condition.tree``.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -288,8 +292,9 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # A vertex becomes white if the edge to its parent points to the parent. It becomes black if the edge
-        # points to the vertex. The root may have either colour.
+        # The function ``partitioned_differential`` needs a tree with vertices of two colours. The root
+        # becomes black. A vertex becomes white if the edge to its parent points to the parent. A vertex
+        # becomes black if this edge points to the vertex.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )
@@ -370,4 +375,4 @@ KINDS: dict[str, Callable[[], Kind]] = {
     "graded": _graded,
     "letters": _letters,
 }
-"""Maps the name of each kind to a function that returns the kind. Messages list the names in this order."""
+"""A map from the name of each kind to a function that returns the kind."""

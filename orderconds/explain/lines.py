@@ -12,9 +12,11 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch. A
-    note such as ``(▸*▸)`` shows the order of the edges at a vertex: ``▸`` is a branch, and ``*`` is the edge
-    to the parent.
+    ``last`` joins the last branch of a vertex to the vertex. ``fork`` joins all other branches of the vertex.
+    ``rail`` is a part of the vertical line between two branches of a vertex.
+
+    A note such as ``(▸*▸)`` lists edges at a vertex from left to right: ``▸`` is the edge to a branch, and
+    ``*`` is the edge to the parent.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')
@@ -44,7 +46,7 @@ UNICODE = Style(
 
 
 def draw(diagram: Diagram, style: Style) -> list[str]:
-    r"""Return the lines of a drawing. The trees of a forest are drawn below each other.
+    r"""Return the lines of a drawing. The trees of a forest are drawn one below another.
 
     >>> from orderconds.explain.diagram import plain, with_directions
     >>> print("\n".join(draw(plain(b"\0\1\2\1"), ASCII)))

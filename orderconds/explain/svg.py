@@ -29,8 +29,8 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    The unit of length is the distance between neighbouring vertices. ``left`` and ``right`` are the outlines
-    of the drawing: the left and the right end of each level, relative to the vertex.
+    ``left`` contains the left end of the drawing at each level, and ``right`` contains the right end. These
+    positions are relative to the vertex. The unit of length is the distance between neighbouring vertices.
     """
 
     x: float
@@ -68,7 +68,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # The outline leaves room for a note at the right of the vertex. The note shows the order of the edges.
+    # A vertex with ``legs`` has a note at its right side. The right outline leaves room for this note.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -133,14 +133,14 @@ class _Block:
             at += (right - left + 1) * STEP
         for line, text in enumerate(self.caption, start=1):
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
-            # The first line is the text of a tree. All other lines are formulas.
+            # The first line of the caption is the text of a tree. All other lines are formulas.
             font = TEXT_FONT if line == 1 else FORMULA_FONT
             shown = text if line == 1 else _formula(text)
             yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)
 
 
 def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
-    """Yield the SVG elements of a tree whose root is at (x, y). In the output, the edges precede the root."""
+    """Yield the SVG elements of a tree whose root is at (x, y)."""
     for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
         far = x + child.x * STEP
         yield _edge(tree.vertex, branch, x, y, far, y - STEP)

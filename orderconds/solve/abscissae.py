@@ -10,14 +10,16 @@ m_i is defined by
 
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
-Let each of x and z be one of the abscissae c, chat and m. Then sum_i b_i x_i z_i = 1/3 is a condition of
-order three. Expansion of the squares gives sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If
-the weights are positive, the three abscissae are equal.
+A method of order three satisfies sum_i b_i x_i z_i = 1/3 if x and z are chosen from the abscissae c, chat and
+m. This includes the choice x = z. Hence sum_i b_i (c_i - m_i)^2 = 1/3 - 2/3 + 1/3 = 0, and in the same way
+sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are therefore equal.
 
-Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
-row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem.
-Consider the graph whose nodes are the rows and columns, and whose edges are the entries a_ij. The equations
-are solved for the entries in a spanning tree of the graph.
+Let a_ij be the coefficient of stage j in stage i. If the three abscissae are equal, the matrix of these
+coefficients satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j)
+for each column j. Equations of this form are called a transportation problem.
+
+The rows and the columns are the nodes of a graph. Each entry a_ij is an edge of the graph, which joins row i
+and column j. The equations are solved for the entries in a spanning tree of the graph.
 """
 
 from __future__ import annotations
@@ -30,7 +32,10 @@ WHERE = "structure abscissae"
 
 
 def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the abscissae m_1, ..., m_s in terms of the weights.
+    """Return formulas for the abscissae m_1, ..., m_s of a Crouch-Grossman method.
+
+    ``b`` contains the names of the weights b_1, ..., b_s. The abscissae are defined by
+    m_i = b_1 + ... + b_{i-1} + b_i/2.
 
     >>> crouch_grossman_times(["b1", "b2"])
     {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
@@ -66,13 +71,15 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for 2 s - 1 entries of A, where s is the number of stages. The formulas contain the
-    abscissae m_i, the weights b_i and the other entries of A. They solve the equations sum_j a_ij = m_i of
-    the rows and the equations sum_i b_i a_ij = b_j (1 - m_j) of the columns.
+    """Return formulas for 2 s - 1 entries of A, where s is the number of stages.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. All
-    other entries are interpreted as edges of a graph: a_ij joins row i and column j. Raises
-    :class:`~orderconds.errors.InputError` if this graph does not connect all rows and columns.
+    With these formulas, each row i satisfies the equation sum_j a_ij = m_i, and each column j satisfies the
+    equation sum_i b_i a_ij = b_j (1 - m_j). Here m_i are the abscissae and b_i are the weights. The formulas
+    contain the abscissae, the weights and the remaining entries of A.
+
+    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. The
+    free entries of A are the edges of a graph: a_ij joins row i and column j. If this graph does not connect
+    all rows and columns, the function raises :class:`~orderconds.errors.InputError`.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -96,9 +103,8 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return a spanning tree of the graph with the given ``edges``. The nodes of the graph are the s rows and
-    s columns of a matrix, and the edges are entries of the matrix. Raises InputError if there is no spanning
-    tree."""
+    """Return the edges of a spanning tree of a graph. The nodes of the graph are the s rows and the s columns
+    of a matrix. An edge (i, j) joins row i and column j. Raises InputError if the graph is not connected."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -108,7 +114,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "if each free entry a_ij of A is an edge between row i and column j, the graph is not connected",
+            "the graph in which each free entry a_ij of A joins row i and column j is not connected",
             where=WHERE,
             expected="more free entries",
         )
@@ -118,15 +124,15 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
     """Return the row and the column of an entry that is the only unknown in its row or column.
 
-    The third returned value is True if the entry is the only unknown in its row. Such an entry is preferred.
-    Otherwise, the entry is the only unknown in its column, and the third value is False.
+    If a row has only one unknown, the function returns this unknown, and the third value is True. Otherwise
+    the function returns the only unknown of a column, and the third value is False.
     """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "if each free entry a_ij of A is an edge between row i and column j, the graph contains a cycle",
+        "the graph in which each free entry a_ij of A joins row i and column j contains a cycle",
         where=WHERE,
         expected="a graph without cycles",
     )
@@ -137,18 +143,19 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The exponentials that follow are
-    called the own exponentials of stage i (:mod:`orderconds.solve.paths`).
+    Stage i begins with the first ``leave[i]`` exponentials of ``update``. Further exponentials follow, which
+    are called the own exponentials of stage i (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the
+    coefficients of stage j in the own exponentials of stage i.
 
-    - ``own`` contains a row (x_i1, ..., x_is) for each stage i in the first half of the stages. The entry
-      x_ij is the sum of the coefficients of stage j in the own exponentials of stage i.
-    - ``middle`` is the same row for the middle stage. If s is even, ``middle`` is empty.
+    - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
+    - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The entries of ``own`` satisfy two kinds of equations. The equation of row i states that stage i has the
-    abscissa m_i. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j. Here j' = s + 1 - j, and b_i are
-    the weights. The term C_j contains no entry of ``own``. The result contains a formula for each C_j. It
-    also contains formulas for entries of ``own`` that solve the equations. In the formulas, y_J is the sum of
-    row J of ``update``.
+    Each row i of ``own`` satisfies an equation, because stage i has the abscissa m_i. Each column j in the
+    first half of ``own`` satisfies the equation sum_i b_i (x_ij - x_ik) = C_j, where k = s + 1 - j. Here b_i
+    are the weights, and C_j is a term without entries of ``own``.
+
+    The function solves these equations for some entries of ``own``. It returns formulas for these entries and
+    for the terms C_j. In the formulas, y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

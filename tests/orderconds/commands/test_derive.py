@@ -204,7 +204,7 @@ def test_an_order_with_more_trees_than_can_be_derived_is_refused_at_once(
 ) -> None:
     result = run(family, "--order", "20")
     assert (result.exit_code, result.stdout) == (2, "")
-    assert result.stderr.startswith(f"orderconds: {family}: there are {trees} trees of order {order}, and")
+    assert result.stderr.startswith(f"orderconds: {family}: there are {trees} trees of order {order}; ")
     assert f"lower the order to {order - 1}" in result.stderr
 
 
