@@ -1,11 +1,12 @@
-"""An ansatz: the text of a tableau file in which some coefficients are unknown. A search computes them.
+"""An ansatz: the text of a tableau file in which some coefficients are unknown. A search computes the
+unknown coefficients.
 
-The file describes a method with a given number of stages. Its coefficients have names such as a21 and b1, and
-they satisfy constraints. The coefficients are evaluated in three rings:
+The file describes a method with a given number of stages. The coefficients of the method have names such as
+a21 and b1. The coefficients are evaluated in three kinds of arithmetic:
 
-- traces: a trace records the operations that compute a number. The numerical search uses these programs.
-- residues modulo primes: they give the ranks of conditions.
-- balls (intervals): they give the proof.
+- A trace records the operations as a program. The numerical search runs this program.
+- Residues modulo primes are used to compute the ranks of conditions.
+- Balls (intervals) are used to prove the order.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ class Ansatz:
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
     - ``cells``: the names of all coefficients that are not constants
     - ``family``: the label of the method family whose order conditions are solved
-    - ``reduction``: the theorem by which some order conditions imply all others
+    - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: True if the order conditions apply to a Runge-Kutta tableau. On an abelian group, the
-      method of the ansatz reduces to this tableau.
+    - ``abelian``: if True, a commutator-free method is replaced by a Runge-Kutta method before the order
+      conditions are evaluated. The two methods are equal on abelian groups.
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
@@ -51,8 +52,9 @@ class Ansatz:
     centre: Mapping[str, float] | None = None
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the text of the file, with the given ``values`` of the free coefficients. The lines ``head``
-        precede the table [numbers]. The lines ``foot`` are the last lines of the file."""
+        """Return the text of a tableau file in which the free coefficients have the given ``values``. The
+        lines ``head`` are inserted before the table [numbers], and the lines ``foot`` at the end of the file.
+        """
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
@@ -73,7 +75,8 @@ class Ansatz:
         return proof.symbolic
 
     def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
-        """Return the method with the given values of the free coefficients, as elements of ``ring``."""
+        """Return the method whose free coefficients have the given ``values``. The values are elements of
+        ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return symbolic.method(ring, known)[0]

@@ -1,11 +1,10 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
-are then computed to high precision by Newton's method. Lattice reduction tries to recognise the coefficients
-as elements of one number field. If the coefficients are recognised, the file contains closed forms, and the
-order is checked exactly. If the coefficients are not recognised, the file contains rounded decimals. Interval
-arithmetic then proves that the order conditions have a solution near these decimals. The proof uses only
-conditions that are independent for methods of the form of the ansatz (:mod:`orderconds.proof.subfamily`).
+Coefficients that the equations do not determine are rounded to short decimals. Newton's method computes all
+other coefficients to high precision. Lattice reduction tries to recognise the coefficients as elements of one
+number field. If the coefficients are recognised, the file contains closed forms, and the order is checked
+exactly. If the coefficients are not recognised, the file contains rounded decimals. In this case, interval
+arithmetic proves that the order conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -61,7 +60,8 @@ DIGITS = 50
 """The number of decimal places of a rounded coefficient in the tableau file."""
 
 BITS = 1400
-"""The working precision of Newton's method in bits. Lattice reduction needs numbers of this precision."""
+"""The working precision of Newton's method in bits. Lattice reduction recognises numbers only
+if their precision is high."""
 
 WORSE = 1.5
 """Rounding may increase the largest coefficient and the principal error by at most this factor."""
@@ -113,9 +113,10 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round the coefficients that the equations do not determine. Return three values: a nearby solution, a
-    map from the index of each rounded coefficient to its value, and the indices of all other coefficients.
-    Raises NotProved if no rounding unit in ``steps`` gives a nearby solution of similar quality."""
+    """Round the coefficients that the equations do not determine. Return three values: a solution with these
+    rounded coefficients, a map from the index of each rounded coefficient to its value, and the indices of
+    all other coefficients. The rounding units in ``steps`` are tried one after another. Raises NotProved if
+    no unit gives an acceptable solution."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -152,8 +153,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient. If the order of the problem is at most
-    :data:`CHEAP`, return the principal error as a second value."""
+    """Return a tuple that contains the largest absolute value of a coefficient. If the order of the problem
+    is at most :data:`CHEAP`, the tuple also contains the principal error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -171,8 +172,9 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the indices of the unknowns for which the equations are solved, in ascending order. They are the
-    pivots of Gaussian elimination of the Jacobian ``slopes`` with complete pivoting.
+    """Return the indices of the pivot columns of the Jacobian ``slopes``, in ascending order. The pivots are
+    chosen by Gaussian elimination with complete pivoting. The equations can be solved for the unknowns that
+    belong to the pivot columns.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -275,7 +277,8 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
 
 
 def _without_zeros(method: Method, ring: Ring) -> Method:
-    """Return a commutator-free method without the exponentials whose exponent is zero."""
+    """Remove the exponentials exp(0) from a commutator-free method. All other methods are returned
+    unchanged."""
     if not isinstance(method, CommutatorFree):
         return method
 
@@ -311,7 +314,8 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x, rounded to ``places`` decimal places. The mark ``~`` of rounded decimals is appended."""
+    """Return x as a decimal with ``places`` decimal places and the suffix ``~``. In a tableau file, this
+    suffix marks a rounded number."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

@@ -1,10 +1,11 @@
 """Lattice reduction that recognises numbers of high precision as elements of one number field.
 
-Let x be an approximate root of a polynomial with small integer coefficients c_k. Let N be a large number and
-e_k the k-th unit vector. The vectors (e_k, N x^k) span a lattice. The sum of c_k (e_k, N x^k) is a short
-vector of this lattice, because its last entry N sum_k c_k x^k is small. Lattice reduction finds this vector
-(Lenstra, Lenstra and Lovasz 1982). The recognised number is only a guess. The caller must verify the guess by
-exact arithmetic in the field.
+Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. Let N
+be a large number. Let v_k be the k-th unit vector, extended by the additional entry N x^k. The vectors v_0,
+..., v_n span a lattice. The sum of all c_k v_k is a lattice vector with the entries c_0, ..., c_n and a last
+entry. The last entry is N times the value of the polynomial at x, and is therefore small. Lattice reduction
+finds such short vectors (Lenstra, Lenstra and Lovasz 1982). The recognised number is only a guess. The caller
+must verify the guess by exact arithmetic in the field.
 """
 
 from __future__ import annotations
@@ -43,10 +44,14 @@ def closed_forms(
     closed form has more than :data:`MAX_TEXT` characters.
 
     ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
-    The first trial uses only these square roots. The second trial adjoins one of the numbers. The last trial
-    uses the field that one of the numbers generates, whose minimal polynomial has the highest degree. No
-    minimal polynomial may have a degree above :data:`MAX_DEGREE`. Without ``radicals``, only the last trial
-    is made.
+    A closed form is a rational combination of basis elements. Three bases are tried:
+
+    - 1 and the square roots
+    - products of the first basis with the powers of one of the numbers
+    - a basis of the field that a number of highest degree generates
+
+    Without ``radicals``, only the last basis is tried. The degree of a number is the degree of its minimal
+    polynomial. It may be at most :data:`MAX_DEGREE`.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -80,9 +85,12 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots, if possible. If one of the
-    numbers is not such a combination, call it r, and allow products of the square roots with powers of r.
-    Return None if this fails, too, or if there are more than 2 MAX_DEGREE products."""
+    """Return the numbers as rational combinations of basis elements. Return None if this fails.
+
+    The basis contains 1 and the square roots ``radicals``. If some numbers are not combinations of these
+    elements, one of these numbers is called r, and the basis is multiplied by the powers of r. The new basis
+    may have at most 2 MAX_DEGREE elements.
+    """
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -132,7 +140,8 @@ def minimal_polynomial(x: arb, bits: int) -> fmpz_poly | None:
 
 
 def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | None:
-    """Return rationals c_k with x = sum_k c_k basis_k, or None if no such rationals are found.
+    """Return x as a linear combination of the numbers in ``basis``: a list of rational coefficients. Return
+    None if no such combination is found.
 
     >>> with precision(300):
     ...     [str(c) for c in combination((1 - arb(5).sqrt()) / 2, [arb(1), arb(5).sqrt()], 300)]
@@ -145,8 +154,8 @@ def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | Non
 
 
 def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
-    """Return small integers c_k for which sum_k c_k values[k] vanishes to the given precision. Return None if
-    none are found."""
+    """Return small integers, one for each number in ``values``. The linear combination of the numbers with
+    these integers is zero up to rounding errors. Return None if no such integers are found."""
     known = bits - 100
     scale = fmpz(2) ** known
     rows = []
@@ -155,8 +164,9 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Let det be the determinant and n the dimension of the lattice. If the numbers satisfy no relation, the
-    # shortest vector has a length of about det^(1/n). If they satisfy a relation, it is much shorter.
+    # If no relation exists between the numbers, the length of the shortest vector is about det^(1/n), where
+    # n is the dimension of the lattice and det its determinant. If a relation exists, the shortest vector is
+    # much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -168,9 +178,9 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return three values: sqrt(D), its text, and an empty tuple. The roots of the quadratic polynomial p
-    generate the field of sqrt(D), where D is a square-free integer. The tuple is empty, because a tableau
-    file needs no lines that define sqrt(D)."""
+    """Return three values: a square root, its text, and an empty tuple. The square root generates the field
+    that contains the roots of the quadratic polynomial p. The tuple is empty, because a square root needs
+    no definition in a tableau file."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

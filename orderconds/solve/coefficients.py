@@ -1,5 +1,5 @@
-"""The coefficients of an ansatz after elimination of linear constraints, and their text in the tableau
-file."""
+"""Elimination of linear constraints from the coefficients of an ansatz. The results are texts for a
+tableau file."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from orderconds.solve.linear import Constraint, Elimination, equality, spell
 from orderconds.solve.spec import Spec
 
 Nodes = Mapping[str, Sequence[str]]
-"""Maps each node (abscissa), such as c2, to the names of the coefficients whose sum is the node."""
+"""Maps the name of a node (abscissa), such as c2, to a list of coefficient names. The node is the sum of
+these coefficients."""
 
 
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Eliminate coefficients with two lists of constraints: ``constraints``, and those of the option
-    ``--fix``.
+    """Eliminate coefficients. The argument ``constraints`` and the option ``--fix`` give the constraints.
 
-    A constraint of ``--fix`` may contain names of nodes, such as c2. Raises InputError for a constraint with
-    an unknown name.
+    A constraint of ``--fix`` may contain names of nodes, such as c2. Raises InputError if a constraint of
+    ``--fix`` contains an unknown name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -45,9 +45,11 @@ def eliminated(
 
 @dataclass(frozen=True)
 class Cells:
-    """The texts of the coefficients in a tableau file, after elimination of the linear constraints. ``extra``
-    contains further formulas: for auxiliary numbers such as the abscissae m1, m2, ..., and for coefficients
-    that depend non-linearly on other coefficients."""
+    """The texts of the coefficients in a tableau file, after elimination of the linear constraints.
+
+    ``extra`` maps names to formulas that do not result from this elimination. Examples are the formulas of
+    the abscissae m1, m2, ... and of coefficients that depend non-linearly on other coefficients.
+    """
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -61,8 +63,8 @@ class Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return formulas as a map from name to text. If a coefficient in ``names`` depends on other
-        coefficients, the map contains its formula. The map also contains all formulas in ``extra``."""
+        """Return a map from names to formulas. It contains the formulas of the coefficients in ``names`` that
+        depend on other coefficients, and all formulas in ``extra``."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)

@@ -1,11 +1,15 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The proof uses a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, no
-real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
-Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
-Formulas of some families divide by the weights b_i. If the coefficient is such a weight, the root zero is
-ignored, because no method of the family has this weight. The certificate expresses 1 or the polynomial as a
-combination of the conditions. Polynomial multiplication verifies the combination.
+The conditions are written as polynomials that must be zero. A Groebner basis is computed for conditions that
+contain only a few coefficients. If the basis contains 1, no real or complex method satisfies the conditions.
+If the basis contains a polynomial in one coefficient, Sturm's theorem counts its real roots. If it has no
+real root, no real method satisfies the conditions.
+
+The formulas of some families divide by the weights b_i. The weights are then nonzero, and the root zero of a
+polynomial in b_i is ignored.
+
+The proof expresses 1, or the polynomial without real roots, as a combination of the conditions. The
+combination is verified by multiplication of polynomials.
 """
 
 from __future__ import annotations
@@ -28,7 +32,8 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""An order condition, and its left-hand side minus its right-hand side as a polynomial."""
+"""An order condition and a polynomial. The polynomial is the left-hand side of the condition minus its
+right-hand side."""
 
 MAX_VARIABLES = 3
 """Only conditions that involve at most this number of coefficients are used."""
@@ -38,19 +43,20 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 limits, the polynomials have too many terms."""
 
 MAX_DEGREE = 8
-"""A certificate multiplies each condition by a polynomial. The degree of this polynomial is below
-MAX_DEGREE."""
+"""The multipliers in a proof (:class:`Infeasible`) have a degree below this number."""
 
 
 @dataclass(frozen=True)
 class Infeasible:
     """A proof by contradiction that no real method satisfies ``conditions``.
 
-    The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. The equation
-    ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution either.
+    The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. There are
+    three kinds of proofs:
 
-    If ``weight`` is not empty, it is the name of a weight of the method. The equation then has the solution
-    zero, but no other real solution, and the formulas of the family divide by this weight.
+    - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
+    - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
+    - If ``weight`` is the name of a weight, zero is the only real solution for this weight. The formulas of
+      the family divide by the weight, so it cannot be zero.
 
     Entry k of ``equations`` is the left-hand side of condition k minus its right-hand side, multiplied by a
     monomial that removes all denominators.
@@ -143,9 +149,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield pairs. The first value of a pair is a set of variables. The second value is the list of
-    conditions that contain only these variables. A set has at most :data:`MAX_VARIABLES` variables. Smaller
-    sets come first."""
+    """Yield small sets of variables. With each set, yield the list of all conditions that contain no other
+    variables. A set has at most :data:`MAX_VARIABLES` variables. Small sets precede large sets."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -157,10 +162,12 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
+    """Return a polynomial in the ideal that ``members`` generate, and a text. Return None if no suitable
+    polynomial is found.
 
-    Return None if no such polynomial is found. If the formulas of the family divide by the weights b_i, a
-    polynomial in b_i may have the root zero. The second value is then the name of b_i, and otherwise empty.
+    Two kinds of polynomials are suitable. A polynomial without real roots is returned with an empty text. If
+    the formulas of the family divide by the weights b_i, zero may be a root of a polynomial in b_i. The name
+    of b_i is returned with such a polynomial.
     """
     import sympy
 
@@ -215,8 +222,8 @@ def _certificate(
 ) -> Infeasible | None:
     """Return a proof that the equations in ``members`` imply the equation ``consequence`` = 0. The proof
     contains polynomials, called multipliers. Each equation is multiplied by its multiplier, and the sum of
-    the products is ``consequence``. Return None if there are no multipliers of degree below
-    :data:`MAX_DEGREE`."""
+    the products is ``consequence``. Return None if multipliers of a degree below :data:`MAX_DEGREE` do not
+    suffice."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:
@@ -242,8 +249,9 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return polynomials m_k of degree at most ``degree`` with sum_k m_k f_k = ``consequence``, where f_k are
-    the ``members``. Return None if there are no such polynomials."""
+    """Return a multiplier for each polynomial in ``members``. A multiplier is a polynomial of degree at most
+    ``degree``. If each member is multiplied by its multiplier, the sum of the products is ``consequence``.
+    Return None if there are no such multipliers."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

@@ -24,8 +24,8 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return a copy in which each variable ``name`` is replaced by the sum of the variables
-        ``sums[name]``."""
+        """Return a copy in which some variables are replaced by sums. ``sums`` maps the name of a replaced
+        variable to the names of its summands."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):

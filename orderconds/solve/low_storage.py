@@ -1,9 +1,9 @@
-"""The ansatz of low-storage (2N) schemes, which store two registers. Its unknowns are the coefficients A_i
+"""The ansatz of low-storage (2N) schemes, which store two registers. The unknowns are the coefficients A_i
 and B_i.
 
-On a Lie group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
-search therefore solves the conditions of Runge-Kutta methods, which are fewer: up to order 6, there are 37
-conditions of Runge-Kutta methods and 113 conditions of commutator-free methods.
+By a theorem, a 2N scheme has the same order on a Lie group as on a vector space
+(:mod:`orderconds.proof.equations`). The search therefore solves the order conditions of Runge-Kutta methods.
+Up to order 6, Runge-Kutta methods have 37 conditions, and commutator-free methods have 113 conditions.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return the family F whose order conditions ``solve`` uses to find low-storage (2N) schemes of
+    """Return the family whose order conditions are solved in a search for low-storage (2N) schemes of
     ``family``.
 
-    By a theorem, each 2N scheme has the same order in F and in ``family``.
+    By a theorem, a 2N scheme has the same order in both families.
 
     Raises :class:`~orderconds.errors.InputError` if no theorem gives the order of 2N schemes in ``family``.
 

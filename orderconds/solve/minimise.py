@@ -1,10 +1,12 @@
 """Minimisation of the principal error over the solutions of the order conditions.
 
 Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
-E' be the Jacobians of F and E. Each step p solves the linearised conditions F + F' p = 0. Among all solutions
-of the linearised conditions, p minimises |E + E' p|^2 + damping |p|^2. A few iterations of
-:func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. The
-method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical
+E' be the Jacobians of F and E. In each iteration, these quantities are evaluated at the current point. The
+step p is a solution of the linearised conditions F + F' p = 0. Among all solutions, p minimises
+|E + E' p|^2 + d |p|^2, where d is a damping parameter. The point after the step does not solve the conditions
+exactly. A few iterations of :func:`orderconds.solve.least_squares.least_squares` correct this point.
+
+The method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical
 Optimization*, Section 18.4).
 """
 

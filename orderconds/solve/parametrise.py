@@ -79,11 +79,13 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """For each pair a_ij, a_ji, return a formula for one of the two entries in terms of the other entry. The
-    formula solves the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
+    """Return formulas for entries of A that make the method symplectic. For i < j, the formula solves the
+    condition b_i a_ij + b_j a_ji = b_i b_j for one of the entries a_ij and a_ji.
 
-    In a ``symmetric`` method with s stages, the pair (i, j) and the mirrored pair (s + 1 - j, s + 1 - i) have
-    equivalent conditions. If the mirrored pair is the pair (i, j) itself, the condition is always satisfied.
+    If the method is symmetric, some formulas are omitted. Let s be the number of stages. The condition for
+    the indices (i, j) is equivalent to the condition for the mirrored indices (s + 1 - j, s + 1 - i). Only
+    one of these conditions is solved. If the mirrored indices are again (i, j), the condition is always
+    satisfied.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -134,7 +136,7 @@ def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, st
             raise InputError(
                 f"{name} = {spell(form)}",
                 where=WHERE,
-                expected="each entry of A to be either fixed to a number or free",
+                expected="only numbers and free coefficients as entries of A",
             )
     return values
 
@@ -145,7 +147,7 @@ def _matrix(rows: Sequence[str]) -> list[str]:
 
 
 def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of commutator-free methods, whose steps are products of exponentials.
+    """Return the ansatz of commutator-free methods. A step of such a method is a product of exponentials.
 
     >>> from orderconds.families import get
     >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
@@ -185,8 +187,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. With these coefficients, the three abscissae of
-    each stage are equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of the stages. With these coefficients, the abscissae c_i, chat_i
+    and m_i of stage i are equal (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -208,8 +210,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the coefficients of the Gauss method with s stages as texts. The weights are named w1, w2, ...,
-    and the entries of A are named g11, g12, ...."""
+    """Return the coefficients of the Gauss method with s stages, as a map from names to formulas. The names
+    of the weights are w1, w2, .... The names of the entries of A are g11, g12, ...."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -221,10 +223,11 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return constraints that relate a method to the Gauss method (A, b) with the same number of stages.
+    """Return the constraints that a method has the same sums of coefficients as a Gauss method.
 
-    In the exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the
-    update, the coefficients of stage j add up to b_j. ``totals`` contains the coefficients a_ij and b_j.
+    Let a_ij and b_j be the coefficients of the Gauss method with the same number of stages. In the
+    exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the update,
+    the coefficients of stage j add up to b_j.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
@@ -239,8 +242,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. With these coefficients, the three
-    abscissae of each stage are equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of a symmetric method. With these coefficients, the abscissae
+    c_i, chat_i and m_i of stage i are equal (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -294,12 +297,12 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     refuse(family.label(), spec, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
     s = spec.stages
     gamma = [named("g", i + 1) for i in range(s)]
-    total = Constraint("the steps add up to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
+    total = Constraint("the step sizes add up to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves a constraint for the name that is last in ``order``. The middle step is last, so the
-    # constraint on the sum determines the middle step.
+    # Elimination solves a constraint for its last coefficient in ``order``. The middle step size is the last
+    # element of ``order``, so the constraint on the sum determines this step size.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -337,7 +340,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
     order = [name for x in (a, b) for name in sorted(x, key=lambda y: -abs(2 * int(y[1:]) - len(x) - 1))]
     constraints += [
         Constraint(
-            "the steps of T and V each add up to 1",
+            "the step sizes of each flow add up to 1",
             {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)},
         )
         for x in (a, b)
@@ -413,15 +416,15 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisation of its methods. The format for the methods of a
-family is its attribute :attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisation of its methods. A search writes the methods of a
+family in the format :attr:`orderconds.families.Family.unknowns`."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
-"""The parametrisation of schemes with two registers (2N)."""
+"""The functions that parametrise low-storage schemes, which store two registers."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods that satisfy the specification. ``family`` is the label of their family.
+    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is a label.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.
