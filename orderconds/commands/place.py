@@ -16,8 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, too: usually the name was
-    forgotten, and the text is the next option.
+    A blank name is refused. A name that begins with ``--`` is refused, too. Usually, the user has forgotten
+    the name, and the value is in fact the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'

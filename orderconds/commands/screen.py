@@ -48,9 +48,8 @@ def drawing_style(plain: bool = False) -> Style:
 def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message.
 
-    In ``with working("deriving") as show``, the function ``show`` replaces the message by a new one.
-
-    If the output is not a terminal, messages are shown only with ``--verbose``, as lines on stderr.
+    The context manager returns a function that replaces the message by a new one. If the output is not a
+    terminal, messages are shown only with ``--verbose``, as lines on stderr.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -71,9 +70,10 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    In ``with counting("measuring") as done``, ``done`` is a function: call it with the name of each finished
-    item. ``total`` is the number of items, or None. On a terminal, a progress bar is shown. If the output
-    is not a terminal, a line for each item is shown, but only with ``--verbose``.
+    The context manager returns a function. Call this function with the name of each finished item.
+    ``total`` is the number of items. It may be unknown (None).
+
+    On a terminal, a progress bar is shown. Elsewhere, ``--verbose`` shows a line for each finished item.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")

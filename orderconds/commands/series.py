@@ -14,8 +14,8 @@ from orderconds.commands import screen
     "-p",
     type=click.IntRange(1, 14),
     required=True,
-    help="The largest weight of the printed brackets. The weight of a bracket is the sum of the weights of "
-    "its letters.",
+    help="The largest weight of the printed brackets. The weight of a bracket is the number of its factors. "
+    "In the Magnus series, a factor Xk counts k times.",
 )
 @click.option(
     "--basis",
@@ -31,7 +31,7 @@ def command(name: str, order: int, basis: str, as_json: bool) -> int:
     \b
     bch            log(exp A exp B)
     symmetric-bch  log(exp(A/2) exp(B) exp(A/2))
-    magnus         log Y(1) for Y' = (X1 + t X2 + t^2 X3 + ...) Y; Xk has weight k
+    magnus         log Y(1) for Y' = (X1 + t X2 + t^2 X3 + ...) Y and Y(0) = 1
     dexp           dexp_U(X) = sum_k ad_U^k X/(k+1)!, where ad_U X = [U, X]
     dexpinv        the inverse of dexp_U, applied to X
 

@@ -49,7 +49,8 @@ if TYPE_CHECKING:
 @click.option(
     "--fsal",
     is_flag=True,
-    help="Search only for methods whose last stage is the first stage of the next step.",
+    help="Search only for FSAL methods (first same as last): the last stage of a step is the first stage of "
+    "the next step.",
 )
 @click.option(
     "--fix",
@@ -94,7 +95,8 @@ if TYPE_CHECKING:
 @click.option(
     "--starts",
     type=click.IntRange(*STARTS),
-    help="The number of random starts for each parametrisation of the coefficients that the search tries.  "
+    help="The number of random starts. If the search tries several parametrisations of the coefficients, "
+    "each of them has this number of starts.  "
     "[default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
@@ -114,16 +116,18 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save the results of finished random starts to this file.  [default with -o FILE: FILE.search]",
+    help="Save the results of finished random starts to this file.  [default: OUT.search if -o OUT is given]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
-    """Find a method of FAMILY with the given stages and order, prove its order, and write its tableau.
+    """Find a method of FAMILY, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and its order was proved, with 1 if no method was found or no method
     exists, and with 2 if options contradict each other. The same seed gives the same file for any
-    number of processes. If a search is interrupted, the checkpoint file contains its finished batches, and
-    the same command continues the search.
+    number of processes.
+
+    If a search is interrupted, repeat the command to continue the search. The results of the finished random
+    starts are read from the checkpoint file.
 
     \b
     Examples:
@@ -164,7 +168,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.spec import Spec
     from orderconds.tableau.file import verify_name
 
-    # A search may take hours, so the name is verified before the search begins.
+    # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
     verify_name(options["name"], "--name")
     # Every search needs the trees up to order p - 1. A search for symmetric methods of even order p needs no
     # trees of order p, because a symmetric method of order p - 1 also has order p.
@@ -181,10 +185,12 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
-    # Path.resolve raises a RuntimeError if a link points to itself, but os.path.realpath does not.
+    # Path.resolve raises a RuntimeError if a link points to itself. Therefore, os.path.realpath is used.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
-            "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
+            "--checkpoint and --output name the same file",
+            where=f"--checkpoint {path}",
+            expected="a different file",
         )
     return Order(
         family,
@@ -266,5 +272,5 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo("if all conditions hold, every product above is zero, and so is the sum of the products;")
-    click.echo(f"this sum is {proof.consequence}, but {proof.reason}")
+    click.echo("if all conditions hold, every product above is zero, and the sum of the products is zero;")
+    click.echo(f"the sum of the products is {proof.consequence}, but {proof.reason}")
