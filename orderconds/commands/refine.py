@@ -10,8 +10,8 @@ from orderconds.commands.place import FILE, put
 from orderconds.tableau import Tableau, dumps
 
 UNKNOWN = (
-    "no method of this order was found whose coefficients are fractions or numbers p + q sqrt(d) near the "
-    "given coefficients"
+    "no exact method of this order was found near the given coefficients; only fractions or "
+    "numbers p + q sqrt(d) were tried"
 )
 
 
@@ -31,15 +31,16 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
     If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
-    decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
-    kept fixed (pins), and a record of the old digits.
+    decimals of the file, such as "0.8177~". If there are more decimals than equations, some decimals are kept
+    fixed. The new file contains more digits. It lists the fixed decimals as pins. It also contains the old
+    digits.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
-    p + q sqrt(d), where p, q and d are rational. Prove that the exact method has the same order. The suffix
-    of the output file determines its format. The format on stdout is TOML.
+    p + q sqrt(d), where p, q and d are rational. The exact method has the same order. The suffix of the
+    output file determines its format. The format on stdout is TOML.
 
-    Exits with 0 if new coefficients were found and proved to satisfy the conditions, with 1 if not, and with
-    2 if the file cannot be read.
+    Exits with 0 if new coefficients were found, with 1 if no coefficients were found or their proof failed,
+    and with 2 if the file cannot be read.
 
     \b
     Examples:

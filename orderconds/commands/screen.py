@@ -71,7 +71,7 @@ def counting(message: str, total: int | None = None) -> Iterator[Callable[[str],
     """Return a context manager that shows the progress of work on several items.
 
     The context manager returns a function. Call this function with the name of each finished item.
-    ``total`` is the number of items. It may be unknown (None).
+    ``total`` is the number of items. It is None if this number is unknown.
 
     On a terminal, a progress bar is shown. Elsewhere, ``--verbose`` shows a line for each finished item.
 
@@ -116,9 +116,9 @@ def _on_terminal() -> bool:
 
 
 class _Lines:
-    """Progress as lines on stderr. The lines are written only with ``--verbose``.
+    """Writes the progress of work as lines to stderr, but only with ``--verbose``.
 
-    ``total`` is the number of items, or None.
+    ``total`` is the number of items. It is None if this number is unknown.
     """
 
     def __init__(self, total: int | None = None) -> None:

@@ -1,4 +1,4 @@
-"""``orderconds series``: the BCH, Magnus and dexp series as sums of brackets."""
+"""``orderconds series``: print the BCH, Magnus and dexp series as sums of brackets."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from orderconds.commands import screen
     type=click.Choice(["lyndon", "hall"]),
     default="lyndon",
     show_default=True,
-    help="The basis: bracketed Lyndon words, or a Hall basis.",
+    help="The basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, order: int, basis: str, as_json: bool) -> int:

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 @click.option(
     "--low-storage",
     is_flag=True,
-    help="Search only for schemes with two registers K and Y (2N): each stage i computes K <- A_i K + F(Y), "
-    "then Y <- exp(h B_i K) Y.",
+    help="Search only for low-storage schemes, which store two registers K and Y: each stage i computes "
+    "K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.",
 )
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
@@ -83,8 +83,8 @@ if TYPE_CHECKING:
 @click.option(
     "--rkn",
     is_flag=True,
-    help="For the family splitting: assume that the vector field is the sum of two parts T and V with "
-    "[V,[V,[V,T]]] = 0.",
+    help="For the family splitting: assume that the vector field is a sum T + V with "
+    "[V,[V,[V,T]]] = 0, as for equations q'' = g(q).",
 )
 @click.option(
     "--minimise",
@@ -170,8 +170,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
     verify_name(options["name"], "--name")
-    # Every search needs the trees up to order p - 1. A search for symmetric methods of even order p needs no
-    # trees of order p, because a symmetric method of order p - 1 also has order p.
+    # Let p be the requested order. The number of trees of order p is not tested here. A search for symmetric
+    # methods of even order p does not need them: a symmetric method of order p - 1 also has order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
