@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--family",
-    help="Treat the tableau as a method of this family. Default: rk or cf, depending on the format of the "
-    "tableau.",
+    help="Treat the tableau as a method of this family. Default: the first of the families rk and cf that "
+    "accepts the tableau.",
 )
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field. A step of the method for this field is the exact flow of the given "
-    "field f.",
+    help="Print the modifying field instead. If the method is applied to this field, a step is the exact "
+    "flow of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:

@@ -1,4 +1,4 @@
-"""``orderconds refine``: make the coefficients of a tableau exact, or compute and prove more digits."""
+"""``orderconds refine``: make the coefficients of a tableau exact, or compute more digits of them."""
 
 from __future__ import annotations
 
@@ -18,14 +18,18 @@ UNKNOWN = (
 @click.command(name="refine")
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--digits", type=click.IntRange(*DIGITS), default=60, show_default=True, help="Decimal places to write."
+    "--digits",
+    type=click.IntRange(*DIGITS),
+    default=60,
+    show_default=True,
+    help="The number of decimal places.",
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
     "--json",
     "as_json",
     is_flag=True,
-    help="Print a JSON record: the new digits, the names of decimals that were kept fixed, and the proof.",
+    help="Print one JSON record on stdout. It contains the new coefficients and the proof.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.

@@ -130,7 +130,7 @@ class _Lines:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 
     def finish(self, text: str) -> None:
-        """Count one finished item, and write a line with its name ``text``."""
+        """Count one finished item, and write a line. ``text`` is the name of the item."""
         self.finished += 1
         if self.total is None:
             self.show(f"{self.finished}  {text}")

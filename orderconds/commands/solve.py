@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="Require this linear equation of the coefficients. In a Butcher tableau, the equation may also "
+    help="Require a linear equation between coefficients. In a Butcher tableau, the equation may also "
     "contain the nodes c_i. The option may be repeated.",
 )
 @click.option(
@@ -89,8 +89,8 @@ if TYPE_CHECKING:
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Search from all random starts, and write the method with the least principal error. The principal "
-    "error of a method of order p is the norm of the residuals of its order conditions of order p + 1.",
+    help="Search from all random starts, and write the method with the least principal error. This error is "
+    "the norm of the residuals of the order conditions of order p + 1, where p is the order of the method.",
 )
 @click.option(
     "--starts",
@@ -183,7 +183,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     for given, option in ((output, "--output"), (path, "--checkpoint")):
         if given is not None and not Path(given).absolute().parent.is_dir():
             raise InputError(
-                "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
+                "no such folder", where=f"{option} {given}", expected="a file in an existing folder"
             )
     # Path.resolve raises a RuntimeError if a link points to itself. Therefore, os.path.realpath is used.
     if output and path and os.path.realpath(output) == os.path.realpath(path):

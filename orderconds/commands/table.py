@@ -1,4 +1,4 @@
-"""``orderconds table``: print the library as a Markdown table, or print Butcher tableaux."""
+"""``orderconds table``: print the tableaux of the library in a Markdown table, or print Butcher tableaux."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a table with one line for each tableau of the library. A line contains the orders of the tableau.
-    For the family with the highest order, it also contains the number of exponentials, the norm of the
-    leading error and the certificate. Exits with 1 if --check is given and the table in FILE is out of date.
+    The number of exponentials, the norm of the leading error and the certificate belong to the family with
+    the highest order. Exits with 1 if --check is given and the table in FILE is out of date.
 
-    With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
-    FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
-    method.
+    If methods are given, print the order and the Butcher tableau of each method. METHOD is the name of a
+    tableau, or FAMILY:NAME. In the second case, the order is computed in this family. A composition of
+    midpoint rules is printed as a Runge-Kutta method.
 
     \b
     Examples:
