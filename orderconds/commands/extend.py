@@ -23,9 +23,8 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     """Add a continuous extension to TABLEAU and write the result. TABLEAU is a file, or the name of a tableau
     of the library.
 
-    The extension gives the solution inside a step from t to t + h. Its weights b_i(theta) are polynomials.
-    They belong to the time t + theta h. The order of the extension is proved: its order conditions hold for
-    all theta.
+    The extension gives the solution inside a step from t to t + h. At the time t + theta h, its weights are
+    polynomials b_i(theta). The order of the extension is proved: its order conditions hold for all theta.
 
     \b
     Examples:
