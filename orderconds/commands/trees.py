@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 @click.option(
     "--order", "-p", type=click.IntRange(*TREE_ORDER), required=True, help="The number of vertices."
 )
-@click.option("--count", is_flag=True, help="Print only the number of trees. It is computed from a generating function.")
+@click.option(
+    "--count", is_flag=True, help="Print only the number of trees. It is computed from a generating function."
+)
 @click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
