@@ -33,7 +33,7 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.option(
     "--explicit",
     is_flag=True,
-    help="With --stages: expand the sums with a_ij = 0 for j >= i, as in explicit methods.",
+    help="Expand the sums for explicit methods: a_ij = 0 for j >= i. This option requires --stages.",
 )
 @click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
@@ -63,8 +63,8 @@ def command(
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to the given order.
 
-    The format latex is suitable for a two-column article. It contains numbered equations with labels and
-    trees, and definitions of all symbols.
+    With --format latex, the equations fit into a two-column article. They have numbers and labels. The output
+    also contains the trees and the definitions of all symbols.
 
     \b
     Examples:
@@ -77,7 +77,7 @@ def command(
     if explicit and stages is None:
         raise click.UsageError("--explicit has no effect without --stages; give --stages S too")
     if as_json and form not in (None, "json"):
-        raise click.UsageError(f"--json and --format {form} select two output formats; leave one out")
+        raise click.UsageError(f"--json and --format {form} select two output formats; omit one of them")
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, stages, explicit=explicit, every=every)
     chosen = "json" if as_json else form or "text"
@@ -114,7 +114,7 @@ def _print(derivation: Derivation, form: str, explain: bool) -> None:
 
 
 def _print_text(derivation: Derivation, explain: bool) -> None:
-    """Print, for each order, the number of conditions, the trees and the equations."""
+    """Print the number of conditions of each order, and the tree and the equation of each condition."""
     click.echo(f"{derivation.family}: {sum_of_counts(derivation.counts)}")
     for order, conditions in enumerate(derivation.by_order, start=1):
         click.echo(f"\norder {order}: {len(conditions)} condition{'' if len(conditions) == 1 else 's'}")

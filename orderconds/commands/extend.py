@@ -20,10 +20,11 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int | None, output: str | None, as_json: bool) -> int:
-    """Add a continuous extension to TABLEAU and write the result. TABLEAU is a file or a name of the library.
-    The extension consists of weights b_i(theta), which give the solution at the time t + theta h.
+    """Add a continuous extension to TABLEAU and write the result. TABLEAU is a file, or the name of a tableau
+    of the library.
 
-    The order of the extension is proved: its conditions are identities of polynomials in theta.
+    The extension gives the solution inside a step from t to t + h. At the time t + theta h, its weights are
+    polynomials b_i(theta). The order of the extension is proved: its order conditions hold for all theta.
 
     \b
     Examples:

@@ -1,8 +1,8 @@
-"""``orderconds list``: list families, tableaux, and the listings of other packages.
+"""``orderconds list``: list families, tableaux, and objects of other packages.
 
-Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
-a function without arguments. It returns records with the keys "name" and "about". The value of "about" is a
-description in one line.
+Another package may add a list. It registers a function as an entry point in the group
+``orderconds.listings``. The function has no arguments. It returns one record for each object, with the keys
+"name" and "about". The value of "about" is a description in one line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""``orderconds modified``: print the modified equation, whose exact flow is a step of the method."""
+"""``orderconds modified``: print the modified equation of a method."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--family",
-    help="Treat the tableau as a method of this family. Default: rk or cf, depending on the format of the "
-    "tableau.",
+    help="Treat the tableau as a method of this family. Default: the first of the families rk and cf that "
+    "accepts the tableau.",
 )
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field. A step of the method for this field is the exact flow of the given "
-    "field f.",
+    help="Print the modifying field instead. If the method is applied to this field, a step is the exact "
+    "flow of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
@@ -43,10 +43,12 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     Each printed line contains the order, the coefficient and the field of one term.
     Each field is an elementary differential of f or a commutator of such differentials.
 
-    The family rk gives rooted trees. Families of Lie group methods (cg, cf, "rkmk(1)") give ordered trees:
-    f[x y] is f differentiated along the frozen fields x and y, and [x, y] = x y - y x is a commutator. For a
-    symplectic method the command also prints the modified Hamiltonian H~. In terms such as H''(f, f), f is
-    the vector field of the Hamiltonian H.
+    For the family rk, each term belongs to a rooted tree. For families of Lie group methods (cg, cf,
+    "rkmk(1)"), each term belongs to a Lyndon word of ordered trees. There f[x y] is the derivative of f along
+    the fields x and y, which are not differentiated themselves. The commutator is [x, y] = x y - y x.
+
+    For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the
+    derivatives of the Hamiltonian H and the vector field f of H. An example is H''(f, f).
 
     \b
     Examples:

@@ -11,9 +11,10 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
-    """Return a function that completes a word to one of the names that ``names`` returns.
+    """Return a function that completes a word in the shell. The possible completions are the results of
+    ``names``.
 
-    If ``files`` is true and no name fits, the shell completes the word to a path.
+    If ``files`` is true and no completion begins with the word, the shell completes the word to a path.
 
     >>> [item.value for item in completing(lambda: ["cf4", "rk4"])(None, None, "c")]
     ['cf4']

@@ -1,4 +1,4 @@
-"""Options for output files and folders, and functions that write these files."""
+"""Options for output files and output folders, and a function that writes an output file."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, too: usually the name was
-    forgotten, and the text is the next option.
+    A blank name is refused. A name that begins with ``--`` is refused, too. Usually, the user has forgotten
+    the name, and the value is in fact the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -53,7 +53,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # If the path is a symbolic link, write the file to which it points.
+        # Write to the target of a symbolic link. If the target is still a link, the links form a loop.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
@@ -75,6 +75,6 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            # The pipe was opened without waiting for a reader, but a write to a full pipe must wait.
+            # While a pipe is full, the write has to wait until another process reads from the pipe.
             os.set_blocking(handle, True)
         stream.write(content)

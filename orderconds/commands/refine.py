@@ -1,4 +1,4 @@
-"""``orderconds refine``: make the coefficients of a tableau exact, or compute and prove more digits."""
+"""``orderconds refine``: make the coefficients of a tableau exact, or compute more digits of them."""
 
 from __future__ import annotations
 
@@ -10,36 +10,41 @@ from orderconds.commands.place import FILE, put
 from orderconds.tableau import Tableau, dumps
 
 UNKNOWN = (
-    "no method of this order was found whose coefficients are fractions or numbers p + q sqrt(d) near the "
-    "given coefficients"
+    "no exact method of this order was found near the given coefficients; only fractions or "
+    "numbers p + q sqrt(d) were tried"
 )
 
 
 @click.command(name="refine")
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--digits", type=click.IntRange(*DIGITS), default=60, show_default=True, help="Decimal places to write."
+    "--digits",
+    type=click.IntRange(*DIGITS),
+    default=60,
+    show_default=True,
+    help="The number of decimal places.",
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
     "--json",
     "as_json",
     is_flag=True,
-    help="Print a JSON record: the new digits, the names of decimals that were kept fixed, and the proof.",
+    help="Print one JSON record on stdout. It contains the new coefficients and the proof.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
     If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
-    decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
-    kept fixed (pins), and a record of the old digits.
+    decimals of the file, such as "0.8177~". If there are more decimals than equations, some decimals are kept
+    fixed. The new file contains more digits. It lists the fixed decimals as pins. It also contains the old
+    digits.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
-    p + q sqrt(d), where p, q and d are rational. Prove that the exact method has the same order. The suffix
-    of the output file determines its format. The format on stdout is TOML.
+    p + q sqrt(d), where p, q and d are rational. The exact method has the same order. The suffix of the
+    output file determines its format. The format on stdout is TOML.
 
-    Exits with 0 if new coefficients were found and proved to satisfy the conditions, with 1 if not, and with
-    2 if the file cannot be read.
+    Exits with 0 if new coefficients were found, with 1 if no coefficients were found or their proof failed,
+    and with 2 if the file cannot be read.
 
     \b
     Examples:

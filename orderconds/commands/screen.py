@@ -48,9 +48,8 @@ def drawing_style(plain: bool = False) -> Style:
 def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message.
 
-    In ``with working("deriving") as show``, the function ``show`` replaces the message by a new one.
-
-    If the output is not a terminal, messages are shown only with ``--verbose``, as lines on stderr.
+    The context manager returns a function that replaces the message by a new one. If the output is not a
+    terminal, messages are shown only with ``--verbose``, as lines on stderr.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -71,9 +70,10 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows the progress of work on several items.
 
-    In ``with counting("measuring") as done``, ``done`` is a function: call it with the name of each finished
-    item. ``total`` is the number of items, or None. On a terminal, a progress bar is shown. If the output
-    is not a terminal, a line for each item is shown, but only with ``--verbose``.
+    The context manager returns a function. Call this function with the name of each finished item.
+    ``total`` is the number of items. It is None if this number is unknown.
+
+    On a terminal, a progress bar is shown. Elsewhere, ``--verbose`` shows a line for each finished item.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -116,9 +116,9 @@ def _on_terminal() -> bool:
 
 
 class _Lines:
-    """Progress as lines on stderr. The lines are written only with ``--verbose``.
+    """Writes the progress of work as lines to stderr, but only with ``--verbose``.
 
-    ``total`` is the number of items, or None.
+    ``total`` is the number of items. It is None if this number is unknown.
     """
 
     def __init__(self, total: int | None = None) -> None:
@@ -130,7 +130,7 @@ class _Lines:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 
     def finish(self, text: str) -> None:
-        """Count one finished item, and write a line with its name ``text``."""
+        """Count one finished item, and write a line. ``text`` is the name of the item."""
         self.finished += 1
         if self.total is None:
             self.show(f"{self.finished}  {text}")

@@ -1,4 +1,4 @@
-"""``orderconds series``: the BCH, Magnus and dexp series as sums of brackets."""
+"""``orderconds series``: print the BCH, Magnus and dexp series as sums of brackets."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from orderconds.commands import screen
     "-p",
     type=click.IntRange(1, 14),
     required=True,
-    help="The largest weight of the printed brackets. The weight of a bracket is the sum of the weights of "
-    "its letters.",
+    help="The largest weight of the printed brackets. The weight of a bracket is the number of its factors. "
+    "In the Magnus series, a factor Xk counts k times.",
 )
 @click.option(
     "--basis",
     type=click.Choice(["lyndon", "hall"]),
     default="lyndon",
     show_default=True,
-    help="The basis: bracketed Lyndon words, or a Hall basis.",
+    help="The basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, order: int, basis: str, as_json: bool) -> int:
@@ -31,7 +31,7 @@ def command(name: str, order: int, basis: str, as_json: bool) -> int:
     \b
     bch            log(exp A exp B)
     symmetric-bch  log(exp(A/2) exp(B) exp(A/2))
-    magnus         log Y(1) for Y' = (X1 + t X2 + t^2 X3 + ...) Y; Xk has weight k
+    magnus         log Y(1) for Y' = (X1 + t X2 + t^2 X3 + ...) Y and Y(0) = 1
     dexp           dexp_U(X) = sum_k ad_U^k X/(k+1)!, where ad_U X = [U, X]
     dexpinv        the inverse of dexp_U, applied to X
 

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 @click.option(
     "--low-storage",
     is_flag=True,
-    help="Search only for schemes with two registers K and Y (2N): each stage i computes K <- A_i K + F(Y), "
-    "then Y <- exp(h B_i K) Y.",
+    help="Search only for low-storage schemes, which store two registers K and Y: each stage i computes "
+    "K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.",
 )
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
@@ -49,13 +49,14 @@ if TYPE_CHECKING:
 @click.option(
     "--fsal",
     is_flag=True,
-    help="Search only for methods whose last stage is the first stage of the next step.",
+    help="Search only for FSAL methods (first same as last): the last stage of a step is the first stage of "
+    "the next step.",
 )
 @click.option(
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="Require this linear equation of the coefficients. In a Butcher tableau, the equation may also "
+    help="Require a linear equation between coefficients. In a Butcher tableau, the equation may also "
     "contain the nodes c_i. The option may be repeated.",
 )
 @click.option(
@@ -82,19 +83,20 @@ if TYPE_CHECKING:
 @click.option(
     "--rkn",
     is_flag=True,
-    help="For the family splitting: assume that the vector field is the sum of two parts T and V with "
-    "[V,[V,[V,T]]] = 0.",
+    help="For the family splitting: assume that the vector field is a sum T + V with "
+    "[V,[V,[V,T]]] = 0, as for equations q'' = g(q).",
 )
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Search from all random starts, and write the method with the least principal error. The principal "
-    "error of a method of order p is the norm of the residuals of its order conditions of order p + 1.",
+    help="Search from all random starts, and write the method with the least principal error. This error is "
+    "the norm of the residuals of the order conditions of order p + 1, where p is the order of the method.",
 )
 @click.option(
     "--starts",
     type=click.IntRange(*STARTS),
-    help="The number of random starts for each parametrisation of the coefficients that the search tries.  "
+    help="The number of random starts. If the search tries several parametrisations of the coefficients, "
+    "each of them has this number of starts.  "
     "[default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
@@ -114,16 +116,18 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save the results of finished random starts to this file.  [default with -o FILE: FILE.search]",
+    help="Save the results of finished random starts to this file.  [default: OUT.search if -o OUT is given]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
-    """Find a method of FAMILY with the given stages and order, prove its order, and write its tableau.
+    """Find a method of FAMILY, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and its order was proved, with 1 if no method was found or no method
     exists, and with 2 if options contradict each other. The same seed gives the same file for any
-    number of processes. If a search is interrupted, the checkpoint file contains its finished batches, and
-    the same command continues the search.
+    number of processes.
+
+    If a search is interrupted, repeat the command to continue the search. The results of the finished random
+    starts are read from the checkpoint file.
 
     \b
     Examples:
@@ -164,10 +168,10 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.spec import Spec
     from orderconds.tableau.file import verify_name
 
-    # A search may take hours, so the name is verified before the search begins.
+    # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
     verify_name(options["name"], "--name")
-    # Every search needs the trees up to order p - 1. A search for symmetric methods of even order p needs no
-    # trees of order p, because a symmetric method of order p - 1 also has order p.
+    # Let p be the requested order. The number of trees of order p is not tested here. A search for symmetric
+    # methods of even order p does not need them: a symmetric method of order p - 1 also has order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -179,12 +183,14 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     for given, option in ((output, "--output"), (path, "--checkpoint")):
         if given is not None and not Path(given).absolute().parent.is_dir():
             raise InputError(
-                "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
+                "no such folder", where=f"{option} {given}", expected="a file in an existing folder"
             )
-    # Path.resolve raises a RuntimeError if a link points to itself, but os.path.realpath does not.
+    # Path.resolve raises a RuntimeError if a link points to itself. Therefore, os.path.realpath is used.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
-            "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
+            "--checkpoint and --output name the same file",
+            where=f"--checkpoint {path}",
+            expected="a different file",
         )
     return Order(
         family,
@@ -266,5 +272,5 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo("if all conditions hold, every product above is zero, and so is the sum of the products;")
-    click.echo(f"this sum is {proof.consequence}, but {proof.reason}")
+    click.echo("if all conditions hold, every product above is zero, and the sum of the products is zero;")
+    click.echo(f"the sum of the products is {proof.consequence}, but {proof.reason}")

@@ -1,4 +1,4 @@
-"""``orderconds table``: print the library as a Markdown table, or print Butcher tableaux."""
+"""``orderconds table``: print the tableaux of the library in a Markdown table, or print Butcher tableaux."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a table with one line for each tableau of the library. A line contains the orders of the tableau.
-    For the family with the highest order, it also contains the number of exponentials, the norm of the
-    leading error and the certificate. Exits with 1 if --check is given and the table in FILE is out of date.
+    The number of exponentials, the norm of the leading error and the certificate belong to the family with
+    the highest order. Exits with 1 if --check is given and the table in FILE is out of date.
 
-    With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
-    FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
-    method.
+    If methods are given, print the order and the Butcher tableau of each method. METHOD is the name of a
+    tableau, or FAMILY:NAME. In the second case, the order is computed in this family. A composition of
+    midpoint rules is printed as a Runge-Kutta method.
 
     \b
     Examples:
@@ -97,8 +97,8 @@ class Butcher(TypedDict):
 def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
-    ``method`` is the name of a tableau, or FAMILY:NAME. Without FAMILY, the order is computed in the
-    family with the highest claimed order.
+    ``method`` is the name of a tableau, or FAMILY:NAME. The text FAMILY:NAME selects the family in which the
+    order is computed. By default, it is the family with the highest claimed order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -144,7 +144,7 @@ def markdown(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def row(name: str) -> tuple[str, ...]:
-    """Return the row of one tableau in the table. The row has one text for each of the :data:`COLUMNS`.
+    """Return the row for the tableau ``name``. The row has one text for each of the :data:`COLUMNS`.
 
     >>> row("cf4")
     ('cf4', 'cf', 'cf 4, rk 4, vcf 4', '4', '5', '5.68e-02', 'exact')
@@ -190,5 +190,5 @@ def _around(path: str) -> tuple[str, str, str]:
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
-        raise InputError("no comments around the table", where=path, expected=f"{BEGIN} and {END}")
+        raise InputError("no comments before and after the table", where=path, expected=f"{BEGIN} and {END}")
     return text, text[:start], text[end + len(END) :]

@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     "--order", "-p", type=click.IntRange(*TREE_ORDER), required=True, help="The number of vertices."
 )
 @click.option(
-    "--count", is_flag=True, help="Print only the number of trees, computed from a generating function."
+    "--count", is_flag=True, help="Print only the number of trees. It is computed from a generating function."
 )
 @click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show a drawing, the elementary differential and the order condition of each tree or word.",
+    help="For each tree or word, show a drawing, the elementary differential and the order condition.",
 )
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")
@@ -46,19 +46,21 @@ def command(
     free         free (unrooted) trees                         symplectic_rk
     essential    free trees without two equal halves           symplectic_rk
     directed     free trees whose edges have a direction       sprk
-    directed-rooted  rooted trees with directed edges               prk_same_weights
+    directed-rooted  rooted trees with directed edges          prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    The last column contains the families whose order conditions belong to these trees. Two halves of a tree
-    are the subtrees on both sides of an edge.
+    The last column contains the families whose order conditions belong to these trees. A tree has two equal
+    halves if the removal of one edge leaves two equal trees.
 
-    In text drawings the root is in the first line. In pictures (--svg) the root is at the bottom. A directed
-    edge leads from a derivative in q to a derivative in p (or mu). A diamond (in text drawings: an L) is a
-    coadjoint action on mu. A note such as (>*>) after a vertex lists its edges in their order: the sign >
-    is a branch, and * is the edge to the parent.
+    In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom. Let q be
+    the position, and p or mu the momentum. A directed edge leads from a derivative in q to a derivative in p
+    or mu. A diamond (in text drawings: an L) is a coadjoint action on mu.
+
+    A note such as (>*>) after a vertex shows the order of the edges at this vertex. The sign > is an edge to
+    a child. The sign * is the edge to the parent.
 
     \b
     Examples:

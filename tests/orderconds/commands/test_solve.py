@@ -130,7 +130,7 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
         (
             "rk --stages 2 --order 2 -o found.toml --checkpoint ./found.toml",
-            "this is also the file of --output",
+            "this is also the output file",
         ),
         ("symplectic_rk --stages 2 --order 2 --explicit", "no methods with --explicit"),
         ("symplectic_rk --stages 2 --order 2 --fix a12=0 --fix a21=1", "both a12 and a21"),
