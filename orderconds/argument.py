@@ -45,8 +45,9 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 
 
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
-    """Return ``x`` as a float if it is a real number between the bounds. Otherwise raise InputError. NaN is
-    refused, too.
+    """Return ``x`` as a float if it is a real number between the bounds.
+
+    Raise InputError for all other values, for example for NaN.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -76,8 +77,9 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return ``x`` as a tuple if it is a list or another iterable of strings. Otherwise raise InputError. A
-    single string and a mapping are refused, too.
+    """Return the strings in the iterable ``x`` as a tuple.
+
+    Raise InputError if ``x`` is a single string, a mapping, or not an iterable of strings.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):

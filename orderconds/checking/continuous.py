@@ -63,10 +63,10 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition that compares the coefficients of theta^p on both sides of ``condition``.
+    """Return the equation between the coefficients of theta^p in ``condition``.
 
-    ``condition`` is the order condition of a tree with n vertices. Its right-hand side is a multiple of
-    theta^n, so the coefficient of theta^p is zero for p != n.
+    ``condition`` is an equation between polynomials in theta, and its tree has n vertices. The right-hand
+    side is a multiple of theta^n. If p differs from n, the right-hand side of the result is therefore zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

@@ -1,9 +1,9 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers x + y sqrt(d). Here x and
-y are rational, and d is the same for all coefficients. The given digits support some order p, but do not
-prove it. The exact numbers are accepted if exact arithmetic proves that their tableau has at least the order
-p.
+y are rational, and d is the same for all coefficients. To the precision of the given digits, the method has
+some order p. The exact numbers are accepted if exact arithmetic proves that they give a method of order at
+least p.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a value of a tableau file, in which each recognised number is replaced by its exact text."""
+    """Replace each recognised number in ``x`` by its exact text. ``x`` is the value of a key in a tableau file."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

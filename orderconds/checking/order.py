@@ -66,7 +66,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest absolute value of a residual in the conditions up to order ``order``. It is None if the
+    """The largest absolute residual of the conditions up to order ``order``. The value is None if the
     coefficients are not doubles."""
 
     def __repr__(self) -> str:
@@ -189,8 +189,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The conditions are evaluated in batches. If all conditions of a batch hold, the largest absolute value
-    of a residual in the batch is appended to this list. It is None if the coefficients are not doubles."""
+    """The largest absolute residual of each batch of conditions in which no condition fails. ``sizes`` is None
+    if the coefficients are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool

@@ -49,9 +49,11 @@ class EmbeddedOrder(Struct, frozen=True):
 class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
-    ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
-    ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
-    decide the question. ``failing`` contains the failing conditions of order ``order + 1``.
+    - ``continuous`` states whether the solution is continuous from one step to the next. The weights b_i(theta)
+      of the extension then satisfy b_i(1) = b_i.
+    - ``smooth`` states whether the first derivative of the solution is continuous.
+    - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
+    - ``failing`` contains the failing conditions of order ``order + 1``.
     """
 
     claimed: int
@@ -126,8 +128,8 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` contains a message for each failure, such as a claimed property that the method does not
-    have. Wrong orders of the main method are reported in ``orders`` only.
+    ``broken_claims`` contains a message for each failure, for example for a claimed property that the method
+    does not have. Wrong orders of the main method are not included: they are found in ``orders``.
     """
 
     name: str

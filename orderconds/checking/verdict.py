@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that are not proved: it is only known that the conditions hold to the precision
-of the coefficients in the file."""
+"""The certificates of orders that are not proved. The conditions hold to the precision of the given
+coefficients, but perhaps not exactly."""
 
 
 def check(
@@ -94,10 +94,10 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Return the scheme with two registers that is equal to the method, or the reason why no such scheme
-    exists.
+    """Return the scheme with two registers that is equal to the method.
 
-    Return None if the method is neither a tableau (A, b) nor commutator-free.
+    If no such scheme exists, the result contains the reason. Return None if the method is neither a
+    Runge-Kutta method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -115,7 +115,10 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return the order and the tolerance as numbers. Raise InputError for a wrong type or a wrong value."""
+    """Return the order and the tolerance as numbers.
+
+    Raise InputError if one of the three arguments has a wrong type or a wrong value.
+    """
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -125,7 +128,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders, with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
+    """Return ``orders``. If the coefficients are doubles, replace the certificate ``decimal`` by ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -136,7 +139,10 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence about exact numbers near the doubles of a tableau, or an empty text."""
+    """Return a sentence that proposes exact numbers instead of the doubles of a tableau.
+
+    Return an empty text if no exact numbers are found, or if a claimed order is wrong.
+    """
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -237,10 +243,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families whose orders give bounds of the orders in other families. Omit each family whose label
-    is in ``labels``.
+    """Return families whose orders imply bounds of the orders in other families.
 
-    A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
+    Families with a label in ``labels`` are omitted. If the tableau is equal to a composition of midpoint
+    rules, the families of this composition are included.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -256,9 +262,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine an order by theorems, after the search for the order ended at a limit.
+    """Determine by theorems the order that a search did not find, because the search reached a limit.
 
-    If no theorem determines the order, return ``ended``, the result of the search.
+    ``ended`` is the result of the search. Return ``ended`` if no theorem determines the order.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
