@@ -13,9 +13,9 @@ from orderconds.errors import InputError
 Bounds = tuple[int, int]
 
 CONDITION_ORDER = (1, 20)
-"""The least and the largest order for which conditions are derived or checked."""
+"""The least and the largest order whose conditions can be derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The least and the largest number of stages for which conditions are expanded."""
+"""The least and the largest number of stages for which the sums in a condition are written out."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)

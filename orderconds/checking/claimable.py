@@ -1,9 +1,9 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
 A family F is not claimable if the order of the tableau in another family implies the order in F. The method
-:meth:`orderconds.families.Family.claimable` decides whether a family is claimable. The claimable families are:
+:meth:`orderconds.families.Family.claimable` decides whether a family is claimable. The results are:
 
-- For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg`` and ``vrkmk``.
+- For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.
 - For a partitioned method (a pair of tableaux): ``prk``. If the pair is symplectic, only ``sprk_separable``.
 """

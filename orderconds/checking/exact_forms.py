@@ -35,10 +35,11 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of the
-    tableau file, with these coefficients.
+    """A tableau with exact coefficients.
 
-    ``texts`` maps the name of each recognised number to its exact value as text.
+    - ``tableau`` is the tableau.
+    - ``data`` contains the keys and values of a file of this tableau.
+    - ``texts`` maps the name of each recognised number to its exact value as text.
     """
 
     tableau: Tableau
@@ -120,7 +121,10 @@ def _bits(x: Constant) -> int:
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return a number as the text ``p + q sqrt(d)``, or None if it is not recognised in this form."""
+    """Return the text of a number p + q sqrt(d) that agrees with ``x`` to its precision.
+
+    The numbers p and q are rational. Return None if no such number is found.
+    """
     bits = _bits(x)
     root = root_of(d, 2 * bits)
     coefficients = relation([x.value, Fraction(1), root], bits)
@@ -140,7 +144,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Replace each recognised number in ``x`` by its exact text. ``x`` is the value of a key in a tableau file."""
+    """Return the value ``x`` of a key in a tableau file, with exact texts for the recognised numbers."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -50,9 +50,10 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if ``more`` conditions would exceed the limit of the current order.
+        """Return True if a limit is exceeded.
 
-        Return True also if the limit on time or memory is exceeded.
+        For the number of conditions, the test is made as if ``more`` conditions of the current order had been
+        evaluated.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

@@ -133,13 +133,14 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
-    ``bound`` is the result for a family whose conditions are a subset of the conditions of ``family``. Hence
-    ``bound.order`` is an upper bound of the order in ``family``. If ``brief`` is true, the search stops at
-    this upper bound. Without a claimed or required order, the search stops at ``family.search_limit``. The
-    search also ends when ``meter`` reports that a limit is reached.
-
-    Conditions are not evaluated if they follow from other conditions, or from orders in other families
-    (:mod:`orderconds.families.reductions`). ``proved`` maps the labels of these families to their orders.
+    - ``claimed`` and ``required``: two orders, or None. The search ends at the largest of the orders
+      ``family.search_limit``, ``claimed + 1`` and ``required + 1``, if no condition fails before.
+    - ``bound``: the result for a family whose conditions are a subset of the conditions of ``family``. The
+      order in ``family`` is at most ``bound.order``.
+    - ``proved``: maps the labels of other families to proved orders. Conditions that follow from these
+      orders are not evaluated (:mod:`orderconds.families.reductions`).
+    - ``brief``: if true, the search stops at ``bound.order``.
+    - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -189,8 +190,10 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest absolute residual of each batch of conditions in which no condition fails. ``sizes`` is None
-    if the coefficients are not doubles."""
+    """The largest absolute residual of each batch of conditions in which no condition fails.
+
+    The value is None if the coefficients are not doubles.
+    """
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool

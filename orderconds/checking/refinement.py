@@ -1,5 +1,6 @@
-"""Refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more
-proved digits.
+"""Refinement of a tableau: more precise coefficients replace the given ones.
+
+The new coefficients are exact numbers, or decimals with a given number of proved digits.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
-    For a file with a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
-    decimals. ``proof`` proves that the equations in the table have a solution near these decimals. ``pinned``
-    contains the names of the decimals that were fixed: the refinement did not change their digits.
+    If the file has a table ``[proof]`` with equations for the coefficients, these fields are set:
 
-    For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
-    exact numbers.
+    - ``decimals`` maps the names of the changed coefficients to their new decimals.
+    - ``pinned`` contains the names of the coefficients whose digits did not change.
+    - ``proof`` certifies that the equations have a solution near the new decimals.
+
+    For other files, ``exact`` maps the names of doubles and rounded decimals to exact numbers.
     """
 
     tableau: Tableau

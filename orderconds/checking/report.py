@@ -49,8 +49,8 @@ class EmbeddedOrder(Struct, frozen=True):
 class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
-    - ``continuous`` states whether the solution is continuous from one step to the next. The weights b_i(theta)
-      of the extension then satisfy b_i(1) = b_i.
+    - ``continuous`` states whether the solution is continuous from one step to the next. In this case, the
+      weights b_i(theta) of the extension satisfy b_i(1) = b_i.
     - ``smooth`` states whether the first derivative of the solution is continuous.
     - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
     - ``failing`` contains the failing conditions of order ``order + 1``.
@@ -75,13 +75,14 @@ class ExtensionOrder(Struct, frozen=True):
 
 
 class RegisterForm(Struct, frozen=True):
-    """The scheme with two registers (2N storage) that is equal to a method, or the reason why no such scheme
-    exists.
+    """A scheme with two registers (2N storage) that is equal to a method.
 
-    ``A`` and ``B`` are the coefficients as text. In stage i, the scheme updates the registers K and Y:
-    K <- A_i K + F(Y), Y <- exp(h B_i K) Y. ``space`` is ``group`` or ``vector space``: the kind of space on
-    which the scheme is equal to the method. ``holds`` states whether the scheme exists. None means that
-    rounded decimals do not decide the question.
+    On a group, stage i of the scheme updates the registers K and Y: K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
+
+    - ``holds`` states whether the scheme exists. The value is None if rounded decimals do not decide this.
+    - ``space`` states where the scheme is equal to the method: on a ``group`` or a ``vector space``.
+    - ``A`` and ``B`` are the coefficients A_i and B_i as text.
+    - ``reason`` states why no such scheme exists. If the scheme exists, ``reason`` is empty.
     """
 
     holds: bool | None
@@ -152,8 +153,12 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """``fails`` if a claim fails, ``undecided`` if a claim is undecided, ``holds`` if all claims hold, or
-        ``unclaimed`` if no order is claimed or required.
+        """The verdict on the tableau, as one of four words.
+
+        - ``fails``: at least one claim fails.
+        - ``undecided``: no claim fails, but at least one claim is undecided.
+        - ``holds``: all claims hold.
+        - ``unclaimed``: no order is claimed or required.
         """
         verdicts = {family.verdict for family in self.orders}
         if self.broken_claims or "fails" in verdicts:
@@ -171,10 +176,11 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The order to which an effectively symmetric method is symmetric, or None for other methods.
+        """The largest order to which the method is symmetric, if the method is effectively symmetric.
 
         Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
-        method is symmetric to a higher order than q, but not to all orders.
+        method is symmetric to a higher order than q, but not to all orders. For other methods, the value is
+        None.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual as a decimal number with 20 digits and a sign."""
+        """The residual, with its sign, as a decimal number of 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -172,8 +172,8 @@ _ENCLOSED = Memo(_enclosed)
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
     """Return True if rational numbers suffice to compute exact residuals.
 
-    The coefficients of the method are elements of the number field ``ring``. If rational numbers suffice, ball
-    arithmetic is not used, because rational arithmetic is faster.
+    The coefficients of the method are elements of the number field ``ring``. Ball arithmetic is not used if
+    rational numbers suffice, because rational arithmetic is faster.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False

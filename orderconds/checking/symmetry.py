@@ -3,8 +3,8 @@ h, then a step of size -h.
 
 For a symmetric method, the composition is the identity. For every other method, there is a largest number q
 such that the composition differs from the identity by O(h^(q + 1)). The method is then called symmetric to
-order q. This q is odd. A method of order p has q >= p. If q is larger than the least odd number >= p, the
-method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+order q. The number q is always odd, and not smaller than the order p of the method. If q is larger than
+p + 1, the method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations

@@ -128,7 +128,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return ``orders``. If the coefficients are doubles, replace the certificate ``decimal`` by ``double``."""
+    """Replace the certificate ``decimal`` by ``double`` if the coefficients of ``tableau`` are doubles."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -158,7 +158,10 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in several families, or None without an embedded method."""
+    """Return the orders of the embedded method in several families.
+
+    Return None if the tableau has no embedded method.
+    """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
         return None
@@ -309,9 +312,9 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return the order in ``family`` if the orders in other families imply it, otherwise None.
+    """Return the order in ``family`` that the orders in other families imply.
 
-    Also return None if the implied order is below ``family.search_limit``, because :func:`family_order` then
+    Return None if they imply no order, or an order below ``family.search_limit``. Then :func:`family_order`
     computes the order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
@@ -358,7 +361,8 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     """Read a tableau from a file of any format, or from the library if ``given`` is a name.
 
-    A Python module is parsed, or executed if ``execute`` is true.
+    If the file is a Python module and ``execute`` is true, the module is executed. If ``execute`` is false,
+    the module is only parsed.
 
     >>> read("rk4").name
     'rk4'
