@@ -21,8 +21,10 @@ CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The bounds of the argument ``tolerance``: the uncertainty of a coefficient x that is given as a double, in
-units of 2^-53 max(1, |x|)."""
+"""The least and the largest value of the argument ``tolerance``.
+
+The tolerance is the uncertainty of a coefficient x that is given as a double, in units of 2^-53 max(1, |x|).
+"""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)

@@ -144,10 +144,9 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family, and the series of one step of the method: a B-series or a Lie-Butcher
-    series.
+    """Return the label of the family, and the B-series or Lie-Butcher series of one step of the method.
 
-    If ``family`` is None, the family is the first of :func:`default_families` that accepts the tableau.
+    If ``family`` is None, the first family of :func:`default_families` that accepts the tableau is used.
     """
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)

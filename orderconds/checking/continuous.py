@@ -1,9 +1,11 @@
-"""The order of a continuous extension (dense output). After the fraction theta of a step, the extension gives
-the solution with the weights b_i(theta).
+"""The order of a continuous extension (dense output).
 
-The left-hand side of the order condition of a tree t is a polynomial in theta. The right-hand side is
-theta^|t|/gamma(t), where |t| is the number of vertices of t and gamma(t) is its density. The check compares
-the coefficients of both sides.
+In a step of size h from the time t, the extension approximates the solution at the times t + theta h with
+0 <= theta <= 1. The weights b_i(theta) of the extension are polynomials in theta.
+
+The order condition of a rooted tree with n vertices has the right-hand side theta^n/gamma, where gamma is the
+density of the tree. The left-hand side is a polynomial in theta. The check compares the coefficients of both
+sides.
 """
 
 from __future__ import annotations

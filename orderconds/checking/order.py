@@ -158,11 +158,11 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return one condition of order ``order`` that the method of ``tableau`` violates, in a tuple.
+    """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The condition is the result of :meth:`~orderconds.families.Family.first_unmet`: all methods of the family
-    violate it. Return an empty tuple if the family has no such condition, or if the coefficients have too few
-    digits.
+    For some families and orders, :meth:`~orderconds.families.Family.first_unmet` returns a condition that no
+    method of the family satisfies. The tuple contains this condition. The tuple is empty if no such condition
+    is known, or if the coefficients have too few digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -223,21 +223,21 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Evaluate the conditions of order n. Return the set of verdicts that occur, the failing conditions,
-        and a flag.
+        """Evaluate the conditions of order n, and return three values.
 
-        The flag is true if all conditions were evaluated. ``unlikely`` is true if n exceeds the expected
-        order, so that most conditions probably fail. ``decimal`` is true if the certificate of the lower
-        orders is ``decimal``.
+        The values are the set of verdicts that occur, the failing conditions, and a flag. The flag is false
+        if conditions may be missing from the failing conditions. ``unlikely`` is true if n exceeds the
+        expected order: most conditions then fail. ``decimal`` is true if the certificate up to the order
+        n - 1 is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if a theorem derives it from other conditions. The theorem needs conditions
-        # that hold exactly, but balls (intervals) show only that a residual may be zero. With balls,
-        # conditions are therefore skipped only if ``decimal`` is true: such an order is not proved anyway.
+        # A condition is skipped if a theorem derives it from conditions that hold exactly. A ball that
+        # contains zero does not prove that a condition holds. With balls, conditions are therefore skipped
+        # only if ``decimal`` is true. The order is then not proved, with or without skipped conditions.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -258,8 +258,8 @@ class _Search:
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield batches of conditions of order n, each with a flag.
 
-    The flag is true if there is only one batch, which contains all conditions. If there are several batches,
-    their conditions together imply all conditions of order n.
+    The conditions of all batches together imply every condition of order n. The flag is true if there is only
+    one batch.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -47,12 +47,13 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the file has a table ``[proof]`` with equations for the decimals, the new decimals have ``digits``
-    proved places (10 to 1000). Otherwise doubles and rounded decimals are replaced by fractions or by numbers
-    p + q sqrt(d). The order does not decrease. ``tableau`` may also be a file or a name of the library.
+    ``tableau`` is a tableau, a file, or a name of the library. If the file has a table ``[proof]`` with
+    equations for the decimals, the new decimals have ``digits`` proved places (10 to 1000). In a file without
+    this table, fractions or numbers p + q sqrt(d) replace the doubles and the rounded decimals. The order of
+    the method does not decrease.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if the
-    numbers are not recognised.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if the proof of a solution near the decimals fails,
+    or if no exact numbers are found.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

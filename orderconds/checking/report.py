@@ -26,13 +26,15 @@ UNCLAIMED = "unclaimed"
 class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method, which estimates the error.
 
-    An embedded method uses the stages of the main method, with a second set of weights or with a second
-    update by exponentials.
+    An embedded method uses the stages of the main method. It has its own weights, or its own update by
+    exponentials.
 
-    ``own`` is the name of a family: ``rk`` for a second set of weights, and ``cf`` for a second update.
-    ``claimed`` is the claimed order in this family. Let n be the lowest order at which the embedded method
-    violates a condition of this family. ``failing`` contains all violated conditions of order n. ``orders``
-    and ``certificates`` map families to computed orders and to their certificates.
+    - ``own`` is the label of the family for the claimed order: ``rk`` for a method with weights, and ``cf``
+      for a method with an update by exponentials.
+    - ``claimed`` is the claimed order in the family ``own``.
+    - ``orders`` maps the labels of families to computed orders.
+    - ``certificates`` maps the labels of families to the certificates of the computed orders.
+    - ``failing`` contains the failing conditions of the order after ``orders[own]`` in the family ``own``.
     """
 
     claimed: int
@@ -105,7 +107,7 @@ class SymmetryOrder(Struct, frozen=True):
     A step of size h, followed by a step of size -h, differs from the identity by O(h^(q + 1)).
 
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
-    - ``order`` is q. It is None for a symmetric method, which is symmetric to every order.
+    - ``order`` is q, or None if the method is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
     - ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """

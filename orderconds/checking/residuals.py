@@ -113,9 +113,9 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true, exact arithmetic is used only for conditions that ball arithmetic does not
-    refute. This choice is faster if most conditions fail. If the residuals are balls and no condition fails,
-    the largest absolute residual is appended to the list ``sizes``.
+    If ``balls_first`` is true, ball arithmetic is used before exact arithmetic. This choice is faster if most
+    conditions fail. If the residuals are balls and no condition fails, the largest absolute residual is
+    appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -181,8 +181,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request. The first request computes only the requested residual.
-    The next request computes all remaining residuals together."""
+    """Exact residuals that are computed on request. The first request computes one residual. The second
+    request computes all other residuals together."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

@@ -41,10 +41,10 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` in each family in which it claims an order.
+    """Find the exact order of ``tableau`` in each family in which its file claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
-    - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
+    - ``family``: check only this family, such as ``"vcg"`` or ``"rkmk(1)"``. A claim is not necessary.
     - ``order``: the least acceptable order. If it is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
@@ -141,7 +141,7 @@ def _of_doubles(certificate: str) -> str:
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
     """Return a sentence that proposes exact numbers instead of the doubles of a tableau.
 
-    Return an empty text if no exact numbers are found, or if a claimed order is wrong.
+    Return an empty text if no exact numbers are found, or if a claimed or required order is wrong.
     """
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
@@ -208,7 +208,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family. Orders above the search limit of a family are derived by theorems."""
+    """Return the order in each family of ``wanted``. High orders are derived by theorems where possible."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -234,11 +234,10 @@ claim, the order is None.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families whose orders are computed first. These orders may imply the orders in the
-    families ``wanted``.
+    """Return additional families whose orders may imply orders in the families ``wanted``.
 
-    Return an empty list if all claimed and required orders are below the search limits of their families. The
-    conditions are then evaluated directly.
+    The orders in the additional families are computed before those in ``wanted``. Return an empty list if
+    each claimed or required order is below the search limit of its family.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -376,9 +375,10 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with its claimed order.
+    """Yield the families to check, each with the claimed order or None.
 
-    Without ``family``, yield the claimed families. Without claims, yield the family of the tableau's format.
+    If ``family`` is given, yield only this family. If ``family`` is None, yield all families with a claim. If
+    the tableau has no claims, yield the family of its format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
@@ -443,8 +443,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    If it is proved that an exact solution exists near the decimals of ``tableau``, the coefficients of
-    ``enclosed`` are balls (intervals) that contain this solution. Otherwise ``enclosed`` is ``tableau``.
+    The orders in the messages are computed from ``enclosed``. If the decimals of ``tableau`` are proved to
+    approximate an exact method, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
+    coefficients. Without a proof, ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 
