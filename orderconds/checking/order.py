@@ -227,7 +227,7 @@ class _Search:
 
         The values are the set of verdicts that occur, the failing conditions, and a flag. The flag is false
         if conditions may be missing from the failing conditions. ``unlikely`` is true if n exceeds the
-        expected order: most conditions then fail. ``decimal`` is true if the certificate up to the order
+        expected order. Most conditions then probably fail. ``decimal`` is true if the certificate up to order
         n - 1 is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
