@@ -13,16 +13,18 @@ from orderconds.errors import InputError
 Bounds = tuple[int, int]
 
 CONDITION_ORDER = (1, 20)
-"""The least and the largest order for which conditions are derived or checked."""
+"""The least and the largest order whose conditions can be derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The least and the largest number of stages for which conditions are expanded."""
+"""The least and the largest number of stages for which the sums in a condition are written out."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The bounds of the argument ``tolerance``: the uncertainty of a coefficient x that is given as a double, in
-units of 2^-53 max(1, |x|)."""
+"""The least and the largest value of the argument ``tolerance``.
+
+The tolerance is the uncertainty of a coefficient x that is given as a double, in units of 2^-53 max(1, |x|).
+"""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)
@@ -45,8 +47,9 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 
 
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
-    """Return ``x`` as a float if it is a real number between the bounds. Otherwise raise InputError. NaN is
-    refused, too.
+    """Return ``x`` as a float if it is a real number between the bounds.
+
+    Raise InputError for all other values, for example for NaN.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -76,8 +79,9 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return ``x`` as a tuple if it is a list or another iterable of strings. Otherwise raise InputError. A
-    single string and a mapping are refused, too.
+    """Return the strings in the iterable ``x`` as a tuple.
+
+    Raise InputError if ``x`` is a single string, a mapping, or not an iterable of strings.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):

@@ -1,13 +1,17 @@
-"""Modified equations. A step of a numerical method is the exact flow of a modified vector field.
+"""Modified equations of numerical methods.
 
-The modified field is a series in the step size h: f~ = f + h f_2 + h^2 f_3 + ... For a symplectic method, f~
-is the vector field of a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*, Chapter IX). On Lie groups, the field y -> f(p).y is called the
-field frozen at the point p. The terms are then elementary differentials along frozen fields, and commutators
-of these differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+A method solves the differential equation of a vector field f. One step of the method is the exact flow of
+another field f~, the modified field. The modified field is a series in the step size h:
+f~ = f + h f_2 + h^2 f_3 + ... For a symplectic method, f~ is the vector field of a modified Hamiltonian. The
+method conserves this Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
+
+On a Lie group, the field y -> f(p).y is called the field frozen at the point p. The fields f_2, f_3, ... of a
+Lie group method are sums of elementary differentials along frozen fields and of their commutators (Lundervold
+and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: a step of the method for the modifying field is the exact
-flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
+flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007)
+1941).
 """
 
 from __future__ import annotations
@@ -47,11 +51,14 @@ def default_families() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a series: h^(order - 1) times ``coefficient`` times a function.
+    """One term of a series in the step size h.
 
-    ``name`` is the text of the function: an elementary differential such as ``f'(f)``, a commutator of
-    elementary differentials, or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation.
-    For a commutator, ``tree`` is a Lyndon word of ordered trees.
+    The term is the product of h^(order - 1), ``coefficient`` and a function. The function is an elementary
+    differential such as ``f'(f)``, a commutator of elementary differentials, or an elementary Hamiltonian.
+
+    - ``name`` is the formula of the function as text.
+    - ``tree`` is the tree of the function in bracket notation. For a commutator, ``tree`` is a Lyndon word of
+      ordered trees.
     """
 
     order: int
@@ -62,10 +69,12 @@ class Term:
 
 @dataclass(frozen=True)
 class ModifiedEquation:
-    """The modified field of a method up to h^(order - 1), and the modified Hamiltonian if there is one.
+    """The modified field of a method, and the modified Hamiltonian if it is known.
 
-    ``family`` is the label of the method's family. Terms with a zero coefficient are omitted from ``terms``.
-    ``hamiltonian`` is None if the series is not a B-series, or if the field is not proved to be Hamiltonian.
+    - ``family`` is the label of the method's family.
+    - ``terms`` contains the non-zero terms of the field with powers of the step size h up to h^(order - 1).
+    - ``hamiltonian`` contains the terms of the modified Hamiltonian. The value is None if the method has no
+      B-series, or if the field is not proved to be Hamiltonian.
     """
 
     family: str
@@ -99,10 +108,12 @@ def modified_equation(
 ) -> ModifiedEquation:
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
-    ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
-    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true,
-    return the modifying equation: a step of the method for this equation is the exact flow of f. The family
-    must then have B-series.
+    ``family`` is the name of a family whose methods have B-series (``rk``) or Lie-Butcher series (``cg``,
+    ``cf``, ``rkmk(1)``). By default, the first family of :func:`default_families` that accepts the tableau is
+    used.
+
+    If ``modifying`` is true, return the modifying equation of y' = f(y). A step of the method for this
+    equation is the exact flow of f. Only methods with B-series have a modifying equation here.
 
     Raises :class:`~orderconds.errors.InputError` for an unsuitable family or tableau, and for an order below
     1.
@@ -133,10 +144,9 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family, and the series of one step of the method: a B-series or a Lie-Butcher
-    series.
+    """Return the label of the family, and the B-series or Lie-Butcher series of one step of the method.
 
-    If ``family`` is None, the family is the first of :func:`default_families` that accepts the tableau.
+    If ``family`` is None, the first family of :func:`default_families` that accepts the tableau is used.
     """
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)

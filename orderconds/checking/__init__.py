@@ -1,7 +1,7 @@
 """Compute and certify the exact order of a tableau in each family in which its file claims an order.
 
-Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coefficients until a condition fails.
-A claim states the exact order, so a claim that is too low also fails.
+The conditions of order 1, 2, ... are evaluated until a condition fails. A claim fails if the claimed order is
+higher or lower than the computed order.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
 the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves

@@ -1,12 +1,11 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family F is omitted if the order of the tableau in another family implies its order in F. For each family,
-the method :meth:`orderconds.families.Family.claimable` makes this decision. The file of a tableau should
-claim an order in these families:
+A family F is not claimable if the order of the tableau in another family implies the order in F. The method
+:meth:`orderconds.families.Family.claimable` decides whether a family is claimable. The results are:
 
-- a Butcher tableau: ``rk``, ``cg`` and ``rkmk``; with non-zero weights also ``sprk``, ``vcg`` and ``vrkmk``.
-- a commutator-free method: ``rk`` and ``cf``; with non-zero weights also ``vcf``.
-- a partitioned method (a pair of tableaux): ``prk``, or only ``sprk_separable`` if the pair is symplectic.
+- For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
+- For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.
+- For a partitioned method (a pair of tableaux): ``prk``. If the pair is symplectic, only ``sprk_separable``.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    The result is sorted: first families on vector spaces, then families on Lie groups, and finally families
-    whose formulas divide by the weights.
+    The families on vector spaces come first, then the families on Lie groups. The last families are those
+    that need non-zero weights.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

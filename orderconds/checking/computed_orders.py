@@ -1,4 +1,4 @@
-"""The computed orders of a tableau in the families in which its file claims, or should claim, an order."""
+"""The computed orders of a tableau in its claimed families and in its claimable families."""
 
 from __future__ import annotations
 

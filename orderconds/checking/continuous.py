@@ -1,9 +1,11 @@
-"""The order of a continuous extension (dense output). After the fraction theta of a step, the extension gives
-the solution with the weights b_i(theta).
+"""The order of a continuous extension (dense output).
 
-The left-hand side of the order condition of a tree t is a polynomial in theta. The right-hand side is
-theta^|t|/gamma(t), where |t| is the number of vertices of t and gamma(t) is its density. The check compares
-the coefficients of both sides.
+In a step of size h from the time t, the extension approximates the solution at the times t + theta h with
+0 <= theta <= 1. The weights b_i(theta) of the extension are polynomials in theta.
+
+The order condition of a rooted tree with n vertices has the right-hand side theta^n/gamma, where gamma is the
+density of the tree. The left-hand side is a polynomial in theta. The check compares the coefficients of both
+sides.
 """
 
 from __future__ import annotations
@@ -63,10 +65,10 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition that compares the coefficients of theta^p on both sides of ``condition``.
+    """Return the equation between the coefficients of theta^p in ``condition``.
 
-    ``condition`` is the order condition of a tree with n vertices. Its right-hand side is a multiple of
-    theta^n, so the coefficient of theta^p is zero for p != n.
+    ``condition`` is an equation between polynomials in theta, and its tree has n vertices. The right-hand
+    side is a multiple of theta^n. If p differs from n, the right-hand side of the result is therefore zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

@@ -1,9 +1,9 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers x + y sqrt(d). Here x and
-y are rational, and d is the same for all coefficients. The given digits support some order p, but do not
-prove it. The exact numbers are accepted if exact arithmetic proves that their tableau has at least the order
-p.
+y are rational, and d is the same for all coefficients. To the precision of the given digits, the method has
+some order p. The exact numbers are accepted if exact arithmetic proves that they give a method of order at
+least p.
 """
 
 from __future__ import annotations
@@ -35,10 +35,11 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of the
-    tableau file, with these coefficients.
+    """A tableau with exact coefficients.
 
-    ``texts`` maps the name of each recognised number to its exact value as text.
+    - ``tableau`` is the tableau.
+    - ``data`` contains the keys and values of a file of this tableau.
+    - ``texts`` maps the name of each recognised number to its exact value as text.
     """
 
     tableau: Tableau
@@ -120,7 +121,10 @@ def _bits(x: Constant) -> int:
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return a number as the text ``p + q sqrt(d)``, or None if it is not recognised in this form."""
+    """Return the text of a number p + q sqrt(d) that agrees with ``x`` to its precision.
+
+    The numbers p and q are rational. Return None if no such number is found.
+    """
     bits = _bits(x)
     root = root_of(d, 2 * bits)
     coefficients = relation([x.value, Fraction(1), root], bits)
@@ -140,7 +144,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a value of a tableau file, in which each recognised number is replaced by its exact text."""
+    """Return the value ``x`` of a key in a tableau file, with exact texts for the recognised numbers."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -1,5 +1,4 @@
-"""Limits on the work of a check. A check that reaches a limit reports the orders found so far, which are
-lower bounds."""
+"""Limits on the work of a check. If a check reaches a limit, the reported orders are lower bounds."""
 
 from __future__ import annotations
 
@@ -12,10 +11,14 @@ MAX_CONDITIONS = 50_000
 
 @dataclass(frozen=True)
 class Limits:
-    """The limits of one check: the number of ``conditions`` of each order, the time in ``seconds``, and the
-    memory in ``megabytes``. None means no limit.
+    """The limits of one check. A limit that is None has no effect.
 
-    Time and memory may exceed their limits, because they are measured only before each batch of conditions.
+    - ``conditions``: the number of conditions of each order.
+    - ``seconds``: the time.
+    - ``megabytes``: the memory.
+
+    Conditions are evaluated in batches. Time and memory are measured only before each batch, so the check may
+    exceed these two limits.
     """
 
     conditions: int = MAX_CONDITIONS
@@ -50,9 +53,10 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if ``more`` conditions would exceed the limit of the current order.
+        """Return True if a limit is exceeded.
 
-        Return True also if the limit on time or memory is exceeded.
+        For the number of conditions, the test is made as if ``more`` conditions of the current order had been
+        evaluated.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

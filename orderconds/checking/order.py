@@ -66,7 +66,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest absolute value of a residual in the conditions up to order ``order``. It is None if the
+    """The largest absolute residual of the conditions up to order ``order``. The value is None if the
     coefficients are not doubles."""
 
     def __repr__(self) -> str:
@@ -133,13 +133,14 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
-    ``bound`` is the result for a family whose conditions are a subset of the conditions of ``family``. Hence
-    ``bound.order`` is an upper bound of the order in ``family``. If ``brief`` is true, the search stops at
-    this upper bound. Without a claimed or required order, the search stops at ``family.search_limit``. The
-    search also ends when ``meter`` reports that a limit is reached.
-
-    Conditions are not evaluated if they follow from other conditions, or from orders in other families
-    (:mod:`orderconds.families.reductions`). ``proved`` maps the labels of these families to their orders.
+    - ``claimed`` and ``required``: two orders, or None. The search ends at the largest of the orders
+      ``family.search_limit``, ``claimed + 1`` and ``required + 1``, if no condition fails before.
+    - ``bound``: the result for a family whose conditions are a subset of the conditions of ``family``. The
+      order in ``family`` is at most ``bound.order``.
+    - ``proved``: maps the labels of other families to proved orders. Conditions that follow from these
+      orders are not evaluated (:mod:`orderconds.families.reductions`).
+    - ``brief``: if true, the search stops at ``bound.order``.
+    - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -157,11 +158,11 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return one condition of order ``order`` that the method of ``tableau`` violates, in a tuple.
+    """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    The condition is the result of :meth:`~orderconds.families.Family.first_unmet`: all methods of the family
-    violate it. Return an empty tuple if the family has no such condition, or if the coefficients have too few
-    digits.
+    For some families and orders, :meth:`~orderconds.families.Family.first_unmet` returns a condition that no
+    method of the family satisfies. The tuple contains this condition. The tuple is empty if no such condition
+    is known, or if the coefficients have too few digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -189,8 +190,10 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The conditions are evaluated in batches. If all conditions of a batch hold, the largest absolute value
-    of a residual in the batch is appended to this list. It is None if the coefficients are not doubles."""
+    """The largest absolute residual of each batch of conditions in which no condition fails.
+
+    The value is None if the coefficients are not doubles.
+    """
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -220,21 +223,21 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Evaluate the conditions of order n. Return the set of verdicts that occur, the failing conditions,
-        and a flag.
+        """Evaluate the conditions of order n, and return three values.
 
-        The flag is true if all conditions were evaluated. ``unlikely`` is true if n exceeds the expected
-        order, so that most conditions probably fail. ``decimal`` is true if the certificate of the lower
-        orders is ``decimal``.
+        The values are the set of verdicts that occur, the failing conditions, and a flag. The flag is false
+        if conditions may be missing from the failing conditions. ``unlikely`` is true if n exceeds the
+        expected order. Most conditions then probably fail. ``decimal`` is true if the certificate up to order
+        n - 1 is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if a theorem derives it from other conditions. The theorem needs conditions
-        # that hold exactly, but balls (intervals) show only that a residual may be zero. With balls,
-        # conditions are therefore skipped only if ``decimal`` is true: such an order is not proved anyway.
+        # A condition is skipped if a theorem derives it from conditions that hold exactly. A ball that
+        # contains zero does not prove that a condition holds. With balls, conditions are therefore skipped
+        # only if ``decimal`` is true. The order is then not proved, with or without skipped conditions.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -255,8 +258,8 @@ class _Search:
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield batches of conditions of order n, each with a flag.
 
-    The flag is true if there is only one batch, which contains all conditions. If there are several batches,
-    their conditions together imply all conditions of order n.
+    The conditions of all batches together imply every condition of order n. The flag is true if there is only
+    one batch.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

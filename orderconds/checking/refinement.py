@@ -1,5 +1,6 @@
-"""Refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more
-proved digits.
+"""Refinement of a tableau: more precise coefficients replace the given ones.
+
+The new coefficients are exact numbers, or decimals with a given number of proved digits.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
-    For a file with a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
-    decimals. ``proof`` proves that the equations in the table have a solution near these decimals. ``pinned``
-    contains the names of the decimals that were fixed: the refinement did not change their digits.
+    If the file has a table ``[proof]`` with equations for the coefficients, these fields are set:
 
-    For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
-    exact numbers.
+    - ``decimals`` maps the names of the changed coefficients to their new decimals.
+    - ``pinned`` contains the names of the coefficients whose digits did not change.
+    - ``proof`` certifies that the equations have a solution near the new decimals.
+
+    For other files, ``exact`` maps the names of doubles and rounded decimals to exact numbers.
     """
 
     tableau: Tableau
@@ -45,12 +47,13 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the file has a table ``[proof]`` with equations for the decimals, the new decimals have ``digits``
-    proved places (10 to 1000). Otherwise doubles and rounded decimals are replaced by fractions or by numbers
-    p + q sqrt(d). The order does not decrease. ``tableau`` may also be a file or a name of the library.
+    ``tableau`` is a tableau, a file, or a name of the library. If the file has a table ``[proof]`` with
+    equations for the decimals, the new decimals have ``digits`` proved places (10 to 1000). In a file without
+    this table, fractions or numbers p + q sqrt(d) replace the doubles and the rounded decimals. The order of
+    the method does not decrease.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if the
-    numbers are not recognised.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if the proof of a solution near the decimals fails,
+    or if no exact numbers are found.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

@@ -26,13 +26,15 @@ UNCLAIMED = "unclaimed"
 class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method, which estimates the error.
 
-    An embedded method uses the stages of the main method, with a second set of weights or with a second
-    update by exponentials.
+    An embedded method uses the stages of the main method. It has its own weights, or its own update by
+    exponentials.
 
-    ``own`` is the name of a family: ``rk`` for a second set of weights, and ``cf`` for a second update.
-    ``claimed`` is the claimed order in this family. Let n be the lowest order at which the embedded method
-    violates a condition of this family. ``failing`` contains all violated conditions of order n. ``orders``
-    and ``certificates`` map families to computed orders and to their certificates.
+    - ``own`` is the label of the family for the claimed order: ``rk`` for a method with weights, and ``cf``
+      for a method with an update by exponentials.
+    - ``claimed`` is the claimed order in the family ``own``.
+    - ``orders`` maps the labels of families to computed orders.
+    - ``certificates`` maps the labels of families to the certificates of the computed orders.
+    - ``failing`` contains the failing conditions of the order after ``orders[own]`` in the family ``own``.
     """
 
     claimed: int
@@ -49,9 +51,11 @@ class EmbeddedOrder(Struct, frozen=True):
 class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
-    ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
-    ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
-    decide the question. ``failing`` contains the failing conditions of order ``order + 1``.
+    - ``continuous`` states whether the solution is continuous from one step to the next. In this case, the
+      weights b_i(theta) of the extension satisfy b_i(1) = b_i.
+    - ``smooth`` states whether the first derivative of the solution is continuous.
+    - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
+    - ``failing`` contains the failing conditions of order ``order + 1``.
     """
 
     claimed: int
@@ -73,13 +77,14 @@ class ExtensionOrder(Struct, frozen=True):
 
 
 class RegisterForm(Struct, frozen=True):
-    """The scheme with two registers (2N storage) that is equal to a method, or the reason why no such scheme
-    exists.
+    """A scheme with two registers (2N storage) that is equal to a method.
 
-    ``A`` and ``B`` are the coefficients as text. In stage i, the scheme updates the registers K and Y:
-    K <- A_i K + F(Y), Y <- exp(h B_i K) Y. ``space`` is ``group`` or ``vector space``: the kind of space on
-    which the scheme is equal to the method. ``holds`` states whether the scheme exists. None means that
-    rounded decimals do not decide the question.
+    On a group, stage i of the scheme updates the registers K and Y: K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
+
+    - ``holds`` states whether the scheme exists. The value is None if rounded decimals do not decide this.
+    - ``space`` states where the scheme is equal to the method: on a ``group`` or a ``vector space``.
+    - ``A`` and ``B`` are the coefficients A_i and B_i as text.
+    - ``reason`` states why no such scheme exists. If the scheme exists, ``reason`` is empty.
     """
 
     holds: bool | None
@@ -102,7 +107,7 @@ class SymmetryOrder(Struct, frozen=True):
     A step of size h, followed by a step of size -h, differs from the identity by O(h^(q + 1)).
 
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
-    - ``order`` is q. It is None for a symmetric method, which is symmetric to every order.
+    - ``order`` is q, or None if the method is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
     - ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """
@@ -126,8 +131,8 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` contains a message for each failure, such as a claimed property that the method does not
-    have. Wrong orders of the main method are reported in ``orders`` only.
+    ``broken_claims`` contains a message for each failure, for example for a claimed property that the method
+    does not have. Wrong orders of the main method are not included: they are found in ``orders``.
     """
 
     name: str
@@ -150,8 +155,12 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """``fails`` if a claim fails, ``undecided`` if a claim is undecided, ``holds`` if all claims hold, or
-        ``unclaimed`` if no order is claimed or required.
+        """The verdict on the tableau, as one of four words.
+
+        - ``fails``: at least one claim fails.
+        - ``undecided``: no claim fails, but at least one claim is undecided.
+        - ``holds``: all claims hold.
+        - ``unclaimed``: no order is claimed or required.
         """
         verdicts = {family.verdict for family in self.orders}
         if self.broken_claims or "fails" in verdicts:
@@ -169,10 +178,11 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The order to which an effectively symmetric method is symmetric, or None for other methods.
+        """The largest order to which the method is symmetric, if the method is effectively symmetric.
 
         Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
-        method is symmetric to a higher order than q, but not to all orders.
+        method is symmetric to a higher order than q, but not to all orders. For other methods, the value is
+        None.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

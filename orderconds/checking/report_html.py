@@ -43,7 +43,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """Yield one line about the failing conditions, if there are any."""
+    """Yield one line about the failing conditions. Yield nothing if no condition fails."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"the first of {count} failing conditions" if count > 1 else "a failing condition"

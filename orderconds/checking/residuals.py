@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual as a decimal number with 20 digits and a sign."""
+        """The residual, with its sign, as a decimal number of 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -110,12 +110,12 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
-    The list ``sizes`` collects largest residuals: if the residuals are balls and no condition fails, the
-    largest absolute value of a residual is appended to the list.
+    The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
+    contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
-    ``undecided`` (the residual is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is
-    used before exact arithmetic. This choice is faster if most conditions fail.
+    If ``balls_first`` is true, ball arithmetic is used before exact arithmetic. This choice is faster if most
+    conditions fail. If the residuals are balls and no condition fails, the largest absolute residual is
+    appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -170,10 +170,10 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if the family evaluates the method with rational numbers, although the coefficients are
-    elements of the number field ``ring``.
+    """Return True if rational numbers suffice to compute exact residuals.
 
-    Exact arithmetic is then used at once, because rational arithmetic is faster than ball arithmetic.
+    The coefficients of the method are elements of the number field ``ring``. Ball arithmetic is not used if
+    rational numbers suffice, because rational arithmetic is faster.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
@@ -181,8 +181,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request. The first request computes only the requested residual.
-    The next request computes all remaining residuals together."""
+    """Exact residuals that are computed on request. The first request computes one residual. The second
+    request computes all other residuals together."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

@@ -3,8 +3,8 @@ h, then a step of size -h.
 
 For a symmetric method, the composition is the identity. For every other method, there is a largest number q
 such that the composition differs from the identity by O(h^(q + 1)). The method is then called symmetric to
-order q. This q is odd. A method of order p has q >= p. If q is larger than the least odd number >= p, the
-method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+order q. The number q is always odd, and not smaller than the order p of the method. If q is larger than
+p + 1, the method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -22,15 +22,16 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest number of vertices of a tree in the test of symmetry: for rooted trees, then for forests of
-ordered trees."""
+"""The test of symmetry uses rooted trees with at most MOST_ROOTED vertices, or forests of ordered trees with
+at most MOST_ORDERED vertices."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
     """Return the order to which a Runge-Kutta or commutator-free method is symmetric.
 
-    Return None for other methods. ``symmetric`` states whether the method is known to be symmetric.
-    Runge-Kutta methods are examined on vector spaces, and commutator-free methods on groups.
+    Return None for other methods. If ``symmetric`` is True, the method is known to be symmetric, and the
+    field ``order`` of the result is None. Runge-Kutta methods are examined on vector spaces, and
+    commutator-free methods on groups.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that are not proved: it is only known that the conditions hold to the precision
-of the coefficients in the file."""
+"""The certificates of orders that are not proved. The conditions hold to the precision of the given
+coefficients, but perhaps not exactly."""
 
 
 def check(
@@ -41,10 +41,10 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` in each family in which it claims an order.
+    """Find the exact order of ``tableau`` in each family in which its file claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
-    - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
+    - ``family``: check only this family, such as ``"vcg"`` or ``"rkmk(1)"``. A claim is not necessary.
     - ``order``: the least acceptable order. If it is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
@@ -94,10 +94,10 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Return the scheme with two registers that is equal to the method, or the reason why no such scheme
-    exists.
+    """Return the scheme with two registers that is equal to the method.
 
-    Return None if the method is neither a tableau (A, b) nor commutator-free.
+    If no such scheme exists, the result contains the reason. Return None if the method is neither a
+    Runge-Kutta method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -115,7 +115,10 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return the order and the tolerance as numbers. Raise InputError for a wrong type or a wrong value."""
+    """Return the order and the tolerance as numbers.
+
+    Raise InputError if one of the three arguments has a wrong type or a wrong value.
+    """
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -125,7 +128,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders, with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
+    """Replace the certificate ``decimal`` by ``double`` if the coefficients of ``tableau`` are doubles."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -136,7 +139,10 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence about exact numbers near the doubles of a tableau, or an empty text."""
+    """Return a sentence that proposes exact numbers instead of the doubles of a tableau.
+
+    Return an empty text if no exact numbers are found, or if a claimed or required order is wrong.
+    """
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -152,7 +158,10 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in several families, or None without an embedded method."""
+    """Return the orders of the embedded method in several families.
+
+    Return None if the tableau has no embedded method.
+    """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
         return None
@@ -199,7 +208,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family. Orders above the search limit of a family are derived by theorems."""
+    """Return the order in each family of ``wanted``. High orders are derived by theorems where possible."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -225,11 +234,10 @@ claim, the order is None.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families whose orders are computed first. These orders may imply the orders in the
-    families ``wanted``.
+    """Return additional families whose orders may imply orders in the families ``wanted``.
 
-    Return an empty list if all claimed and required orders are below the search limits of their families. The
-    conditions are then evaluated directly.
+    The orders in the additional families are computed before those in ``wanted``. Return an empty list if
+    each claimed or required order is below the search limit of its family.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -237,10 +245,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families whose orders give bounds of the orders in other families. Omit each family whose label
-    is in ``labels``.
+    """Return families whose orders imply bounds of the orders in other families.
 
-    A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
+    Families with a label in ``labels`` are omitted. If the tableau is equal to a composition of midpoint
+    rules, the families of this composition are included.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -256,9 +264,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine an order by theorems, after the search for the order ended at a limit.
+    """Determine by theorems the order that a search did not find, because the search reached a limit.
 
-    If no theorem determines the order, return ``ended``, the result of the search.
+    ``ended`` is the result of the search. Return ``ended`` if no theorem determines the order.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -303,9 +311,9 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return the order in ``family`` if the orders in other families imply it, otherwise None.
+    """Return the order in ``family`` that the orders in other families imply.
 
-    Also return None if the implied order is below ``family.search_limit``, because :func:`family_order` then
+    Return None if they imply no order, or an order below ``family.search_limit``. Then :func:`family_order`
     computes the order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
@@ -352,7 +360,8 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     """Read a tableau from a file of any format, or from the library if ``given`` is a name.
 
-    A Python module is parsed, or executed if ``execute`` is true.
+    If the file is a Python module and ``execute`` is true, the module is executed. If ``execute`` is false,
+    the module is only parsed.
 
     >>> read("rk4").name
     'rk4'
@@ -366,9 +375,10 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with its claimed order.
+    """Yield the families to check, each with the claimed order or None.
 
-    Without ``family``, yield the claimed families. Without claims, yield the family of the tableau's format.
+    If ``family`` is given, yield only this family. If ``family`` is None, yield all families with a claim. If
+    the tableau has no claims, yield the family of its format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
@@ -433,8 +443,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    If it is proved that an exact solution exists near the decimals of ``tableau``, the coefficients of
-    ``enclosed`` are balls (intervals) that contain this solution. Otherwise ``enclosed`` is ``tableau``.
+    The orders in the messages are computed from ``enclosed``. If the decimals of ``tableau`` are proved to
+    approximate an exact method, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
+    coefficients. Without a proof, ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 
