@@ -1,7 +1,8 @@
 """Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
-A ball is an interval with a midpoint and a radius; it encloses one unknown real number. The number is proved
-to be zero only if both the midpoint and the radius are zero.
+A ball is an interval with a midpoint and a radius. The ball contains one unknown real number. If the midpoint
+and the radius are zero, this number is zero. If the interval contains zero and other numbers, it is not known
+whether the number is zero.
 """
 
 from __future__ import annotations
@@ -80,8 +81,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return a measure of the size of x. The midpoint and the radius have binary exponents; the result is
-        the larger of the absolute values of these two exponents."""
+        """Return max(abs(e), abs(f)), where e and f are the binary exponents of the midpoint and of the
+        radius."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -89,14 +90,15 @@ class Balls:
         return Ball(x, self.bits)
 
     def is_zero(self, x: Ball) -> bool | None:
-        """Return False if x does not contain zero, True if x is the exact number zero, else None."""
+        """Return True if the ball is the exact number zero, and False if the ball does not contain zero.
+        Return None if the ball contains zero and other numbers."""
         if not x.value.contains(0):
             return False
         return True if x.value.is_zero() else None
 
     def sign(self, x: Ball) -> int | None:
-        """Return -1 or 1 if all numbers in the ball have this sign, 0 if x is the exact number zero, else
-        None."""
+        """Return -1 if all numbers in the ball are negative, 1 if all are positive, and 0 if the ball is the
+        exact number zero. Return None in all other cases."""
         if x.value.contains(0):
             return 0 if x.value.is_zero() else None
         return 1 if x.value > 0 else -1
@@ -129,7 +131,7 @@ class Balls:
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
     def approximate(self, x: Ball, digits: int = 20) -> str:
-        """Return the midpoint as a decimal. :meth:`radius` returns a bound of the error of the midpoint."""
+        """Return the midpoint of the ball as a decimal with ``digits`` significant digits."""
         low, high = endpoints(x.value)
         return rational_decimal((low + high) / 2, digits)
 
@@ -139,7 +141,7 @@ class Balls:
         return rational_float((low + high) / 2)
 
     def radius(self, x: Ball, digits: int = 3) -> str:
-        """Return the radius as a decimal."""
+        """Return the radius of the ball as a decimal with ``digits`` significant digits."""
         low, high = endpoints(x.value)
         return rational_decimal((high - low) / 2, digits)
 
@@ -149,11 +151,11 @@ class Balls:
 
 
 class Enclosures:
-    """The ring of real balls. Its elements are balls of python-flint without a wrapper. The caller sets the
-    working precision.
+    """The ring of real balls, whose elements have python-flint's type ``arb``.
 
-    In a block ``with precision(bits)`` each operation returns the same ball as in :class:`Balls`, in less
-    time. Division by a ball that contains zero raises no error, but returns a ball that is not finite.
+    The caller sets the working precision in a block ``with precision(bits)``. Arithmetic is faster than in
+    :class:`Balls` and returns the same balls. There is one exception: division by a ball that contains zero
+    raises no error here, but returns a ball that is not finite.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -173,7 +175,8 @@ class Enclosures:
         return arb(fmpq(p, q))
 
     def is_zero(self, x: arb) -> bool | None:
-        """Return False if x does not contain zero, True if x is the exact number zero, else None."""
+        """Return True if the ball is the exact number zero, and False if the ball does not contain zero.
+        Return None if the ball contains zero and other numbers."""
         if x.is_zero():
             return True
         return None if x.contains(0) else False
@@ -187,20 +190,24 @@ class Enclosures:
         return Balls(self.bits).key(Ball(x, self.bits))
 
     def approximate(self, x: arb, digits: int = 20) -> str:
-        """Return the midpoint as a decimal."""
+        """Return the midpoint of the ball as a decimal with ``digits`` significant digits."""
         return Balls(self.bits).approximate(Ball(x, self.bits), digits)
 
 
 def _magnitude(x: arb) -> int:
-    # All operations of flint, even abs(x), round to the current precision. Therefore use the exact mantissa.
+    # abs(x) would round to the current precision. The mantissa and the exponent are exact integers.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the largest d with 10^-d >= 2 ``radius``. If the midpoint of the ball is rounded to d places, it
-    differs from the enclosed number by at most one unit in the last place."""
-    # ``str`` is applied to integers of flint, because ``str`` of a Python integer is limited to 4300 digits.
+    """Return the largest integer d with 10^-d >= 2 ``radius``.
+
+    Let a ball with this radius enclose a number. If the midpoint of the ball is rounded to d decimal places,
+    the result differs from the number by at most 10^-d.
+    """
+    # radius.p and radius.q are integers of flint. A Python integer can be converted by ``str`` only if it has
+    # at most 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1

@@ -1,8 +1,8 @@
-"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: no other decimal
-with the same number of digits, and no other double, is closer to the exact number.
+"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: it is a closest
+decimal with the given number of digits, or a closest double.
 
-An irrational number is given by enclosures that can be computed to any precision. The precision is increased
-until both end points of the enclosure round to the same result.
+An irrational number is given by a function that computes an enclosing ball at any precision. The precision is
+increased until both end points of the ball round to the same result.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number, given by a function that maps a number of bits to a ball (interval) around the real
-number."""
+"""A function that represents a real number. Its argument is a precision in bits, and its result is a ball
+(interval) that contains the real number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
@@ -112,13 +112,12 @@ def nearest_float(enclosure: Enclosure) -> float:
 
 
 def rational_float(x: fmpq) -> float:
-    """Return the double nearest to the fraction x. The function uses the division of integers in Python,
-    which rounds correctly.
+    """Return the double nearest to the fraction x.
 
     >>> rational_float(fmpq(1, 3))
     0.3333333333333333
     """
-    return int(x.p) / int(x.q)
+    return int(x.p) / int(x.q)  # Python rounds the quotient of two integers correctly.
 
 
 def _agreed(enclosure: Enclosure, rounding: Callable[[fmpq], Rounded], bits: int) -> Rounded:

@@ -1,7 +1,8 @@
-"""Pseudorandom numbers that are computed by SHA-256 from a description of an object and from a name.
+"""Pseudorandom numbers, computed with the hash function SHA-256.
 
-Some randomised proofs evaluate an object at random points or modulo a random prime. The random numbers depend
-on the object, so nobody can choose the numbers first and then construct a wrong object that passes the test.
+Some randomised proofs evaluate an object at random points or modulo a random prime. The random numbers are
+computed from a description of the object. If they were fixed, somebody could construct a wrong object that
+passes the test for exactly these numbers.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return the pseudorandom number with this name, uniformly distributed in 0, ..., 2^bits - 1."""
+        """Return the pseudorandom number with this name. It is an integer from 0 to 2^bits - 1, and each
+        integer in this range is equally probable."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
@@ -34,10 +36,10 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits. Each prime is 3 modulo 4. Primes that divide a
-        non-zero number in ``avoided`` are omitted.
+        """Yield different primes of ``bits`` bits that are congruent to 3 modulo 4.
 
-        If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.
+        Modulo such a prime p, square roots are easy to compute: if x is a square, x^((p + 1)/4) is a square
+        root of x. No prime divides a non-zero number in ``avoided``.
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

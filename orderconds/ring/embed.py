@@ -1,5 +1,5 @@
 """Maps from one ring to another: from Q to every ring, from number fields to balls and to larger number
-fields, and from a ring to the ring of power series over it."""
+fields, and from a ring R to the ring of power series with coefficients in R."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from orderconds.ring.rationals import Rationals
 def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
     """Return the function that maps each element of ``source`` to the corresponding element of ``target``.
 
-    Raises TypeError if there is no such map.
+    Raises TypeError if no such function is known.
 
     >>> from orderconds.ring import QQ, PowerSeries
     >>> R = PowerSeries(QQ, 2)
@@ -39,5 +39,5 @@ def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
 
 def _ball(source: Ring, x: Element, bits: int) -> Element:
     if not hasattr(source, "ball"):
-        raise TypeError(f"the elements of {source.name} have no enclosures")
+        raise TypeError(f"cannot enclose elements of {source.name} in balls")
     return source.ball(x, bits)

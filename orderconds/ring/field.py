@@ -1,10 +1,11 @@
-"""Real number fields, whose elements are exact algebraic numbers. It can always be decided whether an element
-is zero.
+"""Real number fields, whose elements are exact algebraic numbers.
 
-A field Q(a) is given by the minimal polynomial of a and by enclosures of the real number a. An element is a
-polynomial in a of lower degree; it is zero if and only if all coefficients are zero.
-:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. Elements of
-smaller fields of a tower are converted to the larger field.
+A field Q(a) is defined by the minimal polynomial of a real number a and by enclosures of a. An element is a
+polynomial in a. Its degree is smaller than the degree of the minimal polynomial. The element is zero if and
+only if all coefficients of the polynomial are zero.
+
+The class :class:`orderconds.ring.tower.Tower` constructs a sequence of fields by adjoining one root after
+another. Elements of smaller fields of a tower are converted to the larger field.
 """
 
 from __future__ import annotations
@@ -26,16 +27,17 @@ LARGE = 8
 computed by Euclid's algorithm."""
 
 REMEMBERED = 1000
-"""The largest size of the cache in which a field stores converted elements of smaller fields."""
+"""Each field has a cache for converted elements of smaller fields. This is the largest number of entries of
+the cache."""
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field: a radical, or a named root that a tableau file defines by a
-    polynomial.
+    """A root that is adjoined to a field. It is a radical or a named root. A tableau file defines a named
+    root by a polynomial.
 
     - ``index``: n for an n-th root, and 0 for a named root.
     - ``symbol``: the radicand of a radical as text, or the name of a named root.
-    - ``degree``: the degree of the extended field over the smaller field.
+    - ``degree``: the degree of the field with the root over the field without the root.
     - ``minpoly``: the polynomial of a named root, and None for a radical.
     """
 
@@ -56,14 +58,14 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q[x]/(modulus). The element x represents one real root of ``modulus``. The function
-    ``enclosure(bits)`` returns a ball around this root.
+    """The real field Q[x]/(modulus). The element x, called the primitive element, represents one real root of
+    ``modulus``. The function ``enclosure(bits)`` returns a ball around this root.
 
-    - ``generators``: the adjoined roots.
-    - ``images``: the adjoined roots as polynomials in x.
-    - ``parent``: the field to which the last root was adjoined.
-    - ``parent_image``: the primitive element of ``parent`` as a polynomial in x.
-    - ``reciprocals``: a cache of inverses.
+    - ``generators``: the roots that were adjoined to Q, in the order in which they were adjoined.
+    - ``images``: the generators as polynomials in x.
+    - ``parent``: the field before the last generator was adjoined, or None.
+    - ``parent_image``: the primitive element of ``parent`` as a polynomial in x, or None.
+    - ``reciprocals``: a cache of the inverses of elements of the field.
     """
 
     def __init__(
@@ -119,8 +121,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. Raises TypeError if x does not belong to this field or to a
-        smaller field of the tower."""
+        """Return x as an element of this field. The number x may be an element of this field or of a smaller
+        field of the same tower. TypeError is raised for elements of other fields."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -143,7 +145,8 @@ class NumberField:
 
     @cached_property
     def _parent_powers(self) -> tuple[fmpq_poly, ...]:
-        """The powers of the parent's primitive element, which are a basis of the parent over Q."""
+        """A basis of the parent field over Q. It consists of the powers of the parent's primitive element,
+        given as polynomials in the primitive element of this field."""
         assert self.parent is not None
         powers = [fmpq_poly([1])]
         for _ in range(self.parent.degree - 1):
@@ -152,8 +155,8 @@ class NumberField:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """The generators that have a name, as triples (name, minimal polynomial, decimal). The decimal
-        is closer to this root than to all other real roots of the polynomial."""
+        """A triple (name, minimal polynomial, decimal) for each generator that has a name. Among the real
+        roots of the polynomial, the generator is the one closest to the decimal."""
         return tuple(
             (g.symbol, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
             for g in self.generators
@@ -162,8 +165,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q. Each basis element is a product of powers of the generators and is
-        given by the tuple of the exponents."""
+        """A basis of the field over Q. Each basis element is a product of powers of the generators. It is
+        represented by the tuple of the exponents, one for each generator."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -202,7 +205,7 @@ class NumberField:
         return "-" + text[2:] if text.startswith("- ") else text or "0"
 
     def key(self, x: Algebraic) -> Key:
-        """Return the coefficients of the polynomial that represents x."""
+        """Return a pair (numerator, denominator) for each coefficient of the polynomial that represents x."""
         return tuple((int(c.p), int(c.q)) for c in x.polynomial.coeffs())
 
     def ball(self, x: Algebraic, bits: int) -> arb:
@@ -224,7 +227,7 @@ class NumberField:
         return 0 if self.is_zero(x) else 1 if self.ball(x, 8) > 0 else -1
 
     def approximate(self, x: Algebraic, digits: int = 20) -> str:
-        """Return x as a decimal, correctly rounded."""
+        """Return x as a decimal that is correctly rounded to ``digits`` significant digits."""
         if x.is_rational:
             return rational_decimal(x.rational_value, digits)
         return decimal(lambda bits: self.ball(x, bits), digits)
@@ -240,7 +243,8 @@ class Algebraic:
     """An element of a number field: a ``polynomial`` in the primitive element. The degree of the polynomial
     is less than the degree of the field.
 
-    Arithmetic operations also accept elements of other fields of the same tower, ``fmpq`` and ``int``.
+    The other operand of an arithmetic operation may also have the type ``fmpq`` or ``int``, or be an element
+    of another field of the same tower.
     """
 
     __slots__ = ("field", "polynomial")
@@ -271,8 +275,8 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        # Multiplication by x is a linear map of the field. The characteristic polynomial of this map is a
-        # power of the minimal polynomial of x.
+        # Multiplication by this number is a linear map of the field. The characteristic polynomial of the
+        # map is a power of the minimal polynomial of the number.
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
@@ -337,8 +341,8 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial that represents 1/x for this number x, computed by linear algebra. Euclid's
-        algorithm is slower in fields of high degree."""
+        """Return the polynomial that represents the inverse of this number. It is computed from a linear
+        system, which is faster than Euclid's algorithm in fields of high degree."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
@@ -393,7 +397,8 @@ def _term(c: fmpq, monomial: str) -> str:
 
 
 def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return the value of ``polynomial`` at the polynomial ``at``, reduced modulo ``modulus``.
+    """Substitute the polynomial ``at`` for the variable of ``polynomial``. Return the result modulo
+    ``modulus``.
 
     >>> x = fmpq_poly([0, 1])
     >>> substituted(x * x, x + 1, x * x - 2)

@@ -1,9 +1,10 @@
-"""Integer relations between numbers that are known to few digits, by lattice reduction.
+"""Integer relations between numbers that are known only approximately, by lattice reduction.
 
-An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Consider the lattice
-spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N. A relation with small c_k
-gives a short vector of this lattice, which the algorithm of Lenstra, Lenstra and Lovasz (1982) finds. The
-relations hold only to the given digits, so the caller must prove them.
+An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let N be a large
+number, and let e_k be the unit vectors. Consider the lattice spanned by the vectors (e_k, N x_k): the number
+N x_k is an additional entry after those of e_k. A relation with small integers c_k gives a short vector of
+this lattice. The algorithm of Lenstra, Lenstra and Lovasz (1982) finds short vectors. The relation is checked
+only for the approximate numbers, so the caller must prove it for the exact numbers.
 """
 
 from __future__ import annotations
@@ -16,12 +17,14 @@ from flint import fmpz, fmpz_mat
 
 GUARD = 6
 """Random numbers can satisfy a relation with small coefficients by chance. A relation is accepted only if the
-probability that it holds by chance is below 2 to the power -``GUARD``."""
+probability of such a coincidence is about 2^-GUARD or less."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return an integer relation of the numbers x_k in ``values``: small integers c_k for which the sum of
-    all c_k x_k is zero up to about 2^-bits. Return None if no relation is found.
+    """Return an integer relation of the numbers in ``values``, or None if no relation is found.
+
+    Let x_k be the numbers. The result contains small integers c_k for which sum_k c_k x_k is close to zero:
+    the deviation is about 2^-bits.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -57,8 +60,9 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 for which x agrees to about ``bits`` binary digits with a number p +
-    q sqrt(d). Here p and q are rational, and q is not zero. Return None if no d is found.
+    """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
+
+    The error is about 2^-bits. The result is None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3
@@ -74,7 +78,7 @@ def quadratic_field(x: Fraction, bits: int) -> int | None:
 
 
 def simplest(low: Fraction, high: Fraction) -> Fraction:
-    """Return the fraction with the smallest denominator in the interval [low, high].
+    """Among the fractions in the interval [low, high], return one with the smallest denominator.
 
     >>> simplest(Fraction(31, 100), Fraction(34, 100))
     Fraction(1, 3)

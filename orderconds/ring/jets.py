@@ -39,7 +39,8 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``, enclosed by ``value``."""
+        """Return the variable with index ``place``. Its value is the ball ``value``, and its gradient is the
+        unit vector with this index."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
@@ -53,8 +54,8 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if the enclosure of x contains zero, or if it contains negative numbers and the
-        index is even.
+        If the index is even, all numbers in the enclosure of x must be positive. If the index is odd, the
+        enclosure must not contain zero. Otherwise ValueError is raised.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -70,7 +71,8 @@ class Jets:
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
-        """Return True for the constant zero, False if the enclosure does not contain zero, else None."""
+        """Return True if the value and the gradient are exactly zero, and False if the enclosure of the value
+        does not contain zero. Return None in all other cases."""
         if not x.value.contains(0):
             return False
         flat = x.slopes is None or all(g.is_zero() for g in x.gradient)
@@ -81,11 +83,12 @@ class Jets:
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
-        """Return the texts of the enclosures of the value and of the gradient."""
+        """Return a tuple of texts. The first text is the enclosure of the value. It is followed by one
+        enclosure for each partial derivative."""
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:
-        """Return the midpoint of the value as a decimal."""
+        """Return the midpoint of the enclosure of the value, as a decimal."""
         return str(x.value.mid().str(digits, radius=False))
 
 

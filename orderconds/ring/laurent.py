@@ -1,8 +1,9 @@
-"""Laurent polynomials over Q. They can be divided by monomials such as the weights b_i.
+"""Laurent polynomials over Q: polynomials in which negative powers of the variables are allowed.
 
-This ring is used to expand conditions for a fixed number of stages, in families whose formulas divide by b_i
-(``sprk``, ``vcg``). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal
-elements have equal numerators and equal denominators.
+This ring is used to expand conditions for a fixed number of stages. The formulas of some families (``sprk``,
+``vcg``) contain divisions by the weights b_i, which are variables of the ring. An element is a flint
+polynomial divided by a monomial, in lowest terms. Hence equal elements have equal numerators and equal
+denominators.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring of Laurent polynomials over Q in the variables ``names``. The terms of an element have the
-    same order as the terms of its numerator, which are sorted in degree-lexicographic order.
+    """The ring of Laurent polynomials over Q in the variables ``names``. The terms of an element are sorted
+    in degree-lexicographic order, the largest term first.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -42,8 +43,8 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times the product of powers of the variables with the given ``exponents``. No
-        exponent is negative."""
+        """Return ``scale`` times the product of powers of the variables with the given ``exponents``. The
+        exponents must not be negative."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
@@ -51,23 +52,22 @@ class LaurentPolynomials:
         return bool(x.numerator.is_zero())
 
     def terms(self, x: Laurent) -> tuple[tuple[Exponents, fmpq], ...]:
-        """Return pairs (exponents, coefficient), the leading term first."""
+        """Return a pair (exponents, coefficient) for each term. The leading term is the first."""
         return tuple(
             (tuple(int(e) - d for e, d in zip(exponents, x.denominator, strict=True)), c)
             for exponents, c in x.numerator.terms()
         )
 
     def text(self, x: Laurent) -> str:
-        """Return x as text in expanded form, the leading term first."""
+        """Return x as text: a sum of terms that begins with the leading term."""
         return " + ".join(self._render(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
 
     def key(self, x: Laurent) -> Key:
-        """Return a triple for each term: the exponents, and the numerator and denominator of the
-        coefficient."""
+        """Return a triple (exponents, p, q) for each term. The coefficient of the term is p/q."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Return the same text as :meth:`text`, with exact coefficients. ``digits`` is ignored."""
+        """Return the same text as :meth:`text`. The coefficients are exact, so ``digits`` is ignored."""
         return self.text(x)
 
     def _render(self, exponents: Exponents, c: fmpq) -> str:

@@ -1,18 +1,19 @@
 """Vectors with one entry for each stage, represented by rational polynomials in the nodes.
 
-Let the nodes c_1, ..., c_s of a method be the simple roots of one polynomial M over Q, as for Gauss, Radau
-and Lobatto methods. Each vector with s entries is then (p(c_1), ..., p(c_s)) for exactly one polynomial p
-modulo M. The componentwise product of two vectors corresponds to the product of their polynomials modulo M.
-The multiplication by the matrix A of the method corresponds to a linear map of polynomials.
+Suppose that the nodes c_1, ..., c_s of a method are different, and that they are the roots of a polynomial M
+of degree s over Q. The nodes of Gauss, Radau and Lobatto methods have this property. Each vector with s
+entries then has the form (p(c_1), ..., p(c_s)) for exactly one polynomial p of degree below s. The
+componentwise product of two vectors corresponds to the product of their polynomials modulo M. The
+multiplication by the matrix A of the method corresponds to a linear map of polynomials.
 
-Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. Suppose that the
-polynomials of all vectors A c^k have rational coefficients, and that all numbers sum_i b_i c_i^k are
-rational. Then the order conditions are computed over Q. Arithmetic over Q is faster than in a large number
+Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. This module applies if the
+polynomial of each vector A c^k has rational coefficients, and if each number sum_i b_i c_i^k is rational. The
+order conditions are then computed with rational polynomials. This is faster than arithmetic in a large number
 field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. For a collocation method, the linear map of the matrix A replaces a polynomial p(z) by its
-integral ``int_0^z p(t) dt`` modulo M. For other methods, corrections are added (:class:`NodalAlgebra`).
+number field. For a collocation method, the linear map of the matrix A maps a polynomial p to its integral
+from 0 to z, modulo M. For other methods, corrections are added (:class:`NodalAlgebra`).
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""The precision, in bits, of the balls from which candidates for rational numbers are computed."""
+"""The precision, in bits, of the interpolation with balls. The results are balls around the coefficients of a
+polynomial. The rational number with the smallest denominator in a ball is a candidate for the coefficient."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -38,10 +40,15 @@ class NodalAlgebra:
     p(c_i). Multiplication by a matrix of the method is a linear map from Q[z]/M to itself. The scalar product
     with the weights is a linear map from Q[z]/M to Q.
 
-    - ``corrections[kind]``: pairs (k, d) with d = A z^k - int_0^z t^k dt, where A is the linear map of the
-      matrix with index ``kind``. Pairs with d = 0 are omitted.
-    - ``moments``: pairs (k, d) with d = sum_i b_i c_i^k - 1/(k + 1), with the weights b_i and the nodes c_i.
-      Pairs with d = 0 are omitted.
+    For a collocation method, both linear maps are integrals of p: from 0 to z modulo M, and from 0 to 1.
+    Two attributes store the deviations of other methods from these integrals:
+
+    - ``corrections[kind]``: a list of pairs (k, d). The linear map of the matrix with index ``kind`` maps the
+      power z^k to its integral z^(k+1)/(k+1) modulo M, plus the polynomial d.
+    - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
+      c_i^k is 1/(k+1) + d.
+
+    Pairs with d = 0 are omitted.
 
     The polynomials have the type ``fmpq_poly``. Their degree is below the number of stages.
 
@@ -90,9 +97,10 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of the linear maps A - e b^T and A in the basis 1, z, z^2, ... of the algebra.
+        """Return the matrices of two linear maps in the basis 1, z, z^2, ... of the algebra.
 
-        Here A is the first matrix of the method, b is the vector of the weights, and e is the vector of ones.
+        The first map is multiplication by A - e b^T, and the second map is multiplication by A. Here A is the
+        first matrix of the method, b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -110,8 +118,12 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     """Return the :class:`NodalAlgebra` of a method. The nodes are c_i = sum_j a_ij, where the a_ij are the
     entries of the first matrix.
 
-    The result is None in three cases: ``ring`` is Q or is not a number field, two nodes are equal, or a
-    coefficient in the algebra is not rational (see the module docstring).
+    The result is None in each of these cases:
+
+    - ``ring`` is not a number field, or it is Q.
+    - Two nodes are equal.
+    - The polynomial M, the polynomial of a vector A c^k, or a number sum_i b_i c_i^k is not rational. See the
+      module docstring for these objects.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -173,8 +185,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Polynomial interpolation at the nodes, computed with balls. A call with the values at the nodes returns
-    candidates for the rational coefficients of the interpolation polynomial."""
+    """Polynomial interpolation at the nodes, computed with balls. The object is called with the values of a
+    polynomial at the nodes. It returns a rational candidate for each coefficient of the polynomial."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -189,7 +201,7 @@ class _Guess:
 
 
 def simplest(x: arb) -> fmpq:
-    """Return the rational number with the smallest denominator in a ball.
+    """Among the rational numbers in the ball x, return one with the smallest denominator.
 
     >>> with precision(64):
     ...     simplest(arb(22) / 7)
@@ -213,8 +225,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial with the given values at the nodes. ``guess`` proposes its rational coefficients.
-    The result is None if the proposed polynomial does not have these values exactly."""
+    """Return the rational polynomial with the given values at the nodes. The object ``guess`` proposes the
+    coefficients. Return None if a value of the proposed polynomial differs from the given value."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

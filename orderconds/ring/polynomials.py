@@ -1,6 +1,6 @@
 """Polynomials over Q in named variables, used to expand conditions for a fixed number of stages.
 
-Elements have python-flint's type ``fmpq_mpoly``. The order of the names is the order of the variables.
+The elements have python-flint's type ``fmpq_mpoly``.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from orderconds.ring.protocol import Key
 
 
 class Polynomials:
-    """The ring Q[names] with the degree-lexicographic order of monomials.
+    """The ring of polynomials over Q in the variables ``names``. The terms of a polynomial are sorted in
+    degree-lexicographic order, the largest term first.
 
     >>> R = Polynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -52,20 +53,19 @@ class Polynomials:
         return bool(x.is_zero())
 
     def terms(self, x: fmpq_mpoly) -> tuple[tuple[tuple[int, ...], fmpq], ...]:
-        """Return pairs (exponents, coefficient), the leading term first."""
+        """Return a pair (exponents, coefficient) for each term. The leading term is the first."""
         return tuple((tuple(int(e) for e in exponents), c) for exponents, c in x.terms())
 
     def text(self, x: fmpq_mpoly) -> str:
-        """Return x as text in expanded form, the leading term first."""
+        """Return x as text: a sum of terms that begins with the leading term."""
         return self._render(x, str)
 
     def key(self, x: fmpq_mpoly) -> Key:
-        """Return a triple for each term: the exponents, and the numerator and denominator of the
-        coefficient."""
+        """Return a triple (exponents, p, q) for each term. The coefficient of the term is p/q."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: fmpq_mpoly, digits: int = 20) -> str:
-        """Return x as text with decimal coefficients."""
+        """Return x as text. Each coefficient is a decimal with ``digits`` significant digits."""
         return self._render(x, lambda c: rational_decimal(c, digits))
 
     def _render(self, x: fmpq_mpoly, number: Callable[[fmpq], str]) -> str:

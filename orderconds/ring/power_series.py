@@ -1,6 +1,7 @@
 """Truncated power series in the step size h, over any base ring. Terms of degree above ``order`` are omitted.
 
-The evaluation of one step of a method over this ring gives the Taylor coefficients of the step in h.
+If a step of a method is computed with power series instead of numbers, the result is the Taylor expansion of
+the step in powers of h.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from orderconds.ring.protocol import Element, Key, Ring
 
 
 class PowerSeries:
-    """The ring base[[h]]/(h^(order+1)).
+    """The ring of power series in h with coefficients in ``base``. Powers of h above h^order are omitted.
 
     >>> from orderconds.ring import QQ
     >>> R = PowerSeries(QQ, 3)
@@ -55,7 +56,8 @@ class PowerSeries:
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Return x as text, in ascending powers of h. Coefficients that are sums are in parentheses."""
+        """Return x as text, in ascending powers of h. The coefficient of a positive power of h is in
+        parentheses if it is a sum."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
@@ -75,11 +77,14 @@ class PowerSeries:
         return tuple(self.base.key(c) for c in x.coefficients)
 
     def approximate(self, x: Series, digits: int = 20) -> str:
-        """Return the list of the coefficients of x as text, each coefficient as a decimal."""
+        """Return the coefficients of x as text, in the form of a list of decimals."""
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the number of leading coefficients that are proved to be zero."""
+        """Return the smallest k for which the coefficient of h^k is not proved to be zero.
+
+        Return order + 1 if all coefficients are proved to be zero.
+        """
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is not True:
                 return k
@@ -102,7 +107,7 @@ class Series:
         return f"Series({self.ring.text(self)})"
 
     def _constant(self, other: Element) -> Element:
-        """Return ``other``, which is not a series, as an element of the base ring."""
+        """Convert an integer to an element of the base ring. Return an element of the base ring unchanged."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
     def _same(self, other: Series) -> tuple[Element, ...]:
@@ -149,8 +154,11 @@ class Series:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Series:
-        """Return 1/x for a series x = sum_k x_k h^k with invertible x_0. The coefficients b_n of 1/x are
-        b_0 = 1/x_0 and, for n > 0, b_n = -b_0 sum_{k=1}^n x_k b_{n-k}."""
+        """Return the series y = 1/x for this series x. The constant term of x must have an inverse.
+
+        Let x_n and y_n be the coefficients of h^n in x and y. They satisfy y_0 = 1/x_0 and
+        y_n = -y_0 (x_1 y_{n-1} + ... + x_n y_0) for n > 0.
+        """
         unit = self.coefficients[0]
         if self.ring.base.is_zero(unit) is True:
             raise ZeroDivisionError("division by a power series whose constant term is zero")
