@@ -5,8 +5,9 @@ The series of a Lie group method has one coefficient for each word, and the coef
 relations. The coefficients of Lyndon words therefore determine all other coefficients
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
-Each condition is multiplied by the factorial of the length of its word, and by the factorials of the numbers
-of branches at all vertices. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
+Each condition is multiplied by the factorial of the length of its word. In addition, it is multiplied by the
+factorial of the number of branches at each vertex. For example, the root of the tree [..] has two
+branches, so 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
 """
 
 from __future__ import annotations
@@ -56,8 +57,8 @@ class OrderedForestFamily(Family):
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each ordered forest. A dependent condition
-        contains its relation to independent conditions."""
+        """Return the conditions of the given order, one for each ordered forest. Each dependent
+        condition stores its left-hand side as a polynomial in left-hand sides of independent conditions."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -102,7 +103,7 @@ def scale(forest: Forest) -> int:
 
 @lru_cache(maxsize=32)
 def lyndon_forests(order: int) -> tuple[Forest, ...]:
-    """Return the Lyndon words over ordered trees with ``order`` vertices, as forests.
+    """Return the Lyndon words over ordered trees, as forests. Each forest has ``order`` vertices in total.
 
     >>> [text(forest) for forest in lyndon_forests(3)]
     ['[[.]]', '[..]', '[.] .']

@@ -1,7 +1,8 @@
 """Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
 III.2.2).
 
-If a file contains a single tableau, this tableau is applied to both groups of variables.
+The variables of the system are divided into two sets, and each tableau is applied to one set. If a file
+contains a single tableau, this tableau is applied to both sets.
 """
 
 from __future__ import annotations
@@ -130,7 +131,7 @@ def rooted_weight(tree: BicolouredTree) -> Formula:
 def rooted_weights(
     pair: PartitionedRungeKutta, ring: Ring, conditions: Sequence[OrderCondition]
 ) -> tuple[Element, ...]:
-    """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``.
+    """Return the elementary weights of a pair of tableaux, one for the coloured tree of each condition.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -40,8 +40,8 @@ class SameWeightsFamily(PartitionedFamily):
     implies: ClassVar[Mapping[str, str]] = {}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree with two kinds of edges. The two
-        kinds denote the coefficients a_ij and ahat_ij."""
+        """Return the conditions of the given order, one for each rooted tree with two kinds of edges. The
+        kind of an edge determines whether its factor is a_ij or ahat_ij."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
@@ -56,7 +56,8 @@ class SameWeightsFamily(PartitionedFamily):
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if b and bhat are or may be different."""
+        """Raise :class:`~orderconds.errors.InputError` if the weights b and bhat are not proved to be
+        equal."""
         pair = as_pair(method)
         for i, (x, y) in enumerate(zip(pair.b, pair.b_hat, strict=True), 1):
             if x is not y and ring.is_zero(x - y) is not True:

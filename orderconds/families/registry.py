@@ -1,5 +1,5 @@
-"""The registry of families. A family is built in, or a program registers it, or an installed package provides
-it by an entry point."""
+"""The registry of families. It contains built-in families, families that a program registers, and families
+that installed packages provide by entry points."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ BUILT_IN = {
 the families in the order of this map."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
-"""The entry-point group in which other packages register families. An entry has the form name =
-"module:Class"."""
+"""The entry-point group in which other packages register families. An entry maps the name of a family to
+its class and has the form ``name = "module:Class"``."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _LABEL = re.compile(r"\s*([a-z][a-z0-9_-]*)\s*(?:\(\s*(\d{1,3})\s*\))?\s*")
@@ -57,7 +57,7 @@ def register(family: FamilyClass) -> FamilyClass:
     """Add the class of a family to the registry, and return this class. Commands and tableau files can then
     name the family. The function may be used as a decorator.
 
-    An installed package adds a family by the entry-point group ``orderconds.families``. Raises
+    An installed package adds a family by an entry point of the group ``orderconds.families``. Raises
     :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
     family has the same name. A name consists of lower-case letters, digits and ``_``.
 
@@ -130,8 +130,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names of the families that have order conditions. The methods of these families are given by
-    tableaux.
+    """Return the names of the families whose methods are given by tableaux. Only these families have order
+    conditions.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)

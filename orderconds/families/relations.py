@@ -25,13 +25,13 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
 Polynomial = dict[tuple[Any, ...], Fraction]
-"""A polynomial in left-hand sides: a map from monomials to coefficients. A monomial is the sorted tuple of
-the keys of its factors."""
+"""A polynomial whose variables are the left-hand sides of conditions. A left-hand side is denoted by the key
+of its condition. The polynomial maps each monomial, a sorted tuple of keys, to its coefficient."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that yields three trees u, v and v o u for each edge at the root of a given tree. Without the
-edge, the tree is divided into u, which contains the root, and v. The tree v o u is v with u as an additional
-branch of the root."""
+"""A function of a tree. For each edge at the root of this tree, the function yields three trees u, v, w.
+Without the edge, the tree is divided into two trees: u contains the root, and v does not. The tree w is v
+with u as an additional branch of the root of v."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -138,8 +138,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree. Larger trees come first. Trees of equal size are sorted by
-    descending level sequences.
+    """Return the sort key of a tree. Larger trees come first. Among trees of equal size, the
+    tree with the larger level sequence comes first.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -153,8 +153,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. In a
-    # group-like series, the coefficient of this product is the product of the coefficients of the factors.
+    # In a group-like series, the product of the coefficients of the factors is the coefficient of their
+    # shuffle product. This shuffle product is a multiple of ``word`` plus lexicographically smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -176,7 +176,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the coefficient of a word of trees in a group-like series, as a polynomial in the coefficients
     of Lyndon words.
 
-    Each of these coefficients is multiplied by ``scale(w)``, where ``w`` is the word of the coefficient.
+    All coefficients of words are scaled: the coefficient of a word ``w`` is multiplied by ``scale(w)``.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -1,10 +1,12 @@
-"""Runge-Kutta-Munthe-Kaas methods. ``rkmk(r)`` truncates dexpinv after the power r of ad; ``rkmk`` does not
-truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
+"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. It is a
+power series in the operator ad. The family ``rkmk(r)`` truncates this series after the power r of ad. The
+family ``rkmk`` does not truncate the series.
 
-The left-hand sides of conditions are coefficients of Lyndon words in the Lie-Butcher series of the method. No
-theorem about the order is used to derive these conditions. Let p be the order of the tableau as a Runge-Kutta
-method. Let R = r if r is 0 or odd. If r >= 2 is even, let R = r + 1, because the Bernoulli number B_{r+1} is
-zero. Then the method has the order min(p, R + 2).
+The left-hand sides of conditions are coefficients of Lyndon words in the Lie-Butcher series of the method.
+
+Let p be the order of the tableau as a Runge-Kutta method. Let R = r if r is 0 or odd. If r >= 2 is even, let
+R = r + 1, because the Bernoulli number B_{r+1} is zero. Then a method of ``rkmk(r)`` has the order
+min(p, R + 2). This theorem is not used to derive the conditions.
 """
 
 from __future__ import annotations
@@ -49,8 +51,8 @@ if TYPE_CHECKING:
 
 
 RANKED = 8
-"""The highest order at which essential conditions are selected by ranks of matrices. At higher orders this
-computation takes too long."""
+"""The highest order at which :meth:`MuntheKaasFamily.essential_conditions` computes ranks of matrices to find
+independent conditions. At higher orders this computation takes too long."""
 
 
 @register
@@ -66,7 +68,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     name = "rkmk"
     description = (
-        "Runge-Kutta-Munthe-Kaas methods; rkmk(r) truncates dexpinv after the power r, and rkmk "
+        "Runge-Kutta-Munthe-Kaas methods; rkmk(r) truncates dexpinv after the power r of ad, and rkmk "
         "does not truncate dexpinv."
     )
     formats = ("rk",)
@@ -97,9 +99,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
         The condition belongs to the word ``[.] . ... .``, which consists of one tree with two vertices and
-        ``order`` - 2 trees with one vertex. The module docstring defines R. If ``order`` is R + 3, no method
-        with truncated dexpinv satisfies this condition. The truncation of dexpinv changes no condition of an
-        order below R + 3.
+        ``order`` - 2 trees with one vertex. Let R be the number from the module docstring. If ``order`` is
+        R + 3, no method with truncated dexpinv satisfies this condition. The truncation of dexpinv changes no
+        condition of an order below R + 3.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -109,10 +111,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the independent :meth:`conditions` of the given order. Together with the conditions of lower
         order, they imply all :meth:`conditions` of the given order.
 
-        Without truncation, there is one independent condition for each rooted tree. If dexpinv is truncated,
-        there is one more independent condition at order R + 3, where the module docstring defines R. No
-        tableau satisfies this condition, so the order is at most R + 2. The computation requires NumPy. Above
-        order :data:`RANKED`, all :meth:`conditions` are returned.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. Let R be the
+        number from the module docstring. If dexpinv is truncated, there is one more independent condition at
+        order R + 3. No tableau satisfies this condition, so the order is at most R + 2.
+
+        The computation requires NumPy. If ``order`` is above :data:`RANKED`, all :meth:`conditions` are
+        returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -137,8 +141,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff``, or
-        ``limit`` if ``limit`` is lower.
+        """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff`` of ad.
+        The result is at most ``limit``.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -156,9 +160,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 class _Words:
     """The coefficients of words in the series of the exponents, as index sums.
 
-    Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Then u_i =
-    sum_j a_ij dexpinv_{u_j} k_j. If the argument ``i`` of a method is None, u_i is the exponent of the
-    update, and b_j replaces a_ij.
+    Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Let
+    dexpinv_u be the inverse of the differential of exp at u. Then u_i = sum_j a_ij dexpinv_{u_j}(k_j). If
+    the argument ``i`` of a method is None, u_i is the exponent of the whole step, and b_j replaces a_ij.
     """
 
     def __init__(self, cutoff: int | None) -> None:
@@ -166,7 +170,7 @@ class _Words:
         self._known: dict[tuple[int, tuple[Forest, ...]], tuple[str, Formula]] = {}
 
     def exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in the exponential of the exponent u_i."""
+        """Return the coefficient of a word in exp(u_i). The class docstring defines u_i."""
         if len(set(word)) == 1:
             first = self._power(i, 1, word[:1])
             return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
@@ -174,7 +178,7 @@ class _Words:
         return total(*powers) if word else one()
 
     def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in the n-th power of the exponent u_i."""
+        """Return the coefficient of a word in the n-th power of u_i. The class docstring defines u_i."""
         if n == 0 or len(word) < n:
             return zero() if n or word else one()
         if i is None:
@@ -194,7 +198,7 @@ class _Words:
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in the exponent u_i."""
+        """Return the coefficient of a word in u_i. The class docstring defines u_i."""
         if i is not None and word == (b"\0",):
             return coefficient("c", i)
         j = fresh()
@@ -209,8 +213,9 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # A term of dexpinv_u x is q u^n x u^m. The letter ``tree`` comes from x. The letters before
-                # it come from u^m, and the letters after it come from u^n. Only the power u^0 has no letters.
+                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. The letter ``tree``
+                # comes from x. The letters to its left come from u^m, and the letters to its right come from
+                # u^n. A power of u gives no letters if the exponent is 0, and at least one letter otherwise.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # The rightmost factor of u^n x u^m acts first, so the letters of u^m come first in a
                     # word. The class DexpinvSeries has the same convention.

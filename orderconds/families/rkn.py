@@ -1,13 +1,14 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
 brackets of T and V are zero.
 
-The Poisson bracket of two functions of q alone is zero. If x and y are functions of q alone, so is x o y =
-[x,[T,y]], because T is quadratic in p. Hence V generates a set of functions of q by the product o. The
-brackets of these functions are zero, so all elements of the ideal that these brackets generate are zero. The
-element of lowest weight in this ideal is [V,[V,[V,T]]]. Each condition belongs to a linear functional that is
-zero on the ideal. The functional is written as a linear combination of words over T and V. The numbers of
-conditions at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995)
-151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+If x and y are functions of q alone, [x,[T,y]] is also a function of q alone, because T is quadratic in p.
+Repeated double brackets of this form, starting from V, give a set of functions of q. The Poisson bracket of
+two functions of q is zero. The brackets of all pairs from the set generate an ideal, and all elements of this
+ideal are zero. The element of lowest weight is [V,[V,[V,T]]].
+
+Each condition belongs to a linear functional that is zero on the ideal. The functional is written as a linear
+combination of words over T and V. The numbers of conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14,
+25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings into the flows of T and V. The key ``rkn`` of the tableau file states which part is V. A
-    linear combination of words over T and V indexes each condition.
+    """Splittings into the flows of T and V. The key ``rkn`` of the tableau file states which part is V. Each
+    condition belongs to a linear combination of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -80,8 +81,8 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return one condition for each element of :func:`functionals`. Each dependent condition stores its
-        relation to the independent conditions."""
+        """Return one condition for each element of :func:`functionals`. Each dependent condition stores
+        its left-hand side as a polynomial in left-hand sides of independent conditions."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
@@ -103,15 +104,16 @@ class NystroemFamily(Family):
         return tuple(results)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the step sizes of a splitting T + V with ``stages`` stages."""
+        """Return the unknowns of a method with ``stages`` stages: the step sizes of a splitting T + V."""
         form = SplittingFamily().in_stages(stages, explicit=explicit)
         return StageForm(form.names, lambda values, ring: _nystroem(form.method(values, ring)))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting whose file contains the key ``rkn``, else None.
+        """Return this family if the method is a splitting and its tableau file contains the key ``rkn``.
+        Otherwise return None.
 
-        Such a file should state the order of the method in this family.
+        A tableau file with the key ``rkn`` should state the order of the method in this family.
         """
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
@@ -122,9 +124,9 @@ class NystroemFamily(Family):
 
         The bound in this family is ``order``. The bound in the family ``splitting`` is min(``order``, 4).
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence both families have
-        the same conditions up to order three. Order three implies order four, because the order of a
-        symmetric method is even.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence this family and
+        the family ``splitting`` have the same conditions up to order three. A symmetric method of order three
+        has order four, because the order of a symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -180,16 +182,16 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least positive integer by which a condition is multiplied so that all coefficients in its
-    left-hand side are integers."""
+    """Return the factor by which both sides of a condition are multiplied. This factor is the least positive
+    integer that turns all coefficients of the left-hand side into integers."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the linear functionals that are zero on the ideal. Each functional is a linear
-    combination of words of length ``order``. The function :func:`_ideal` returns generators of the ideal.
+    """Return a basis of the linear functionals that are zero on the ideal of the module docstring. Each
+    functional is a linear combination of words of length ``order``.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
@@ -199,8 +201,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return a largest subset of :func:`functionals` that is linearly independent on Lie elements. Together
-    with the conditions of lower order, the conditions of this subset imply those of all :func:`functionals`.
+    """Return a largest subset of :func:`functionals` that is linearly independent on Lie elements. The
+    conditions of this subset and the conditions of lower order imply the conditions of all functionals.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -210,7 +212,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of the given weight that the product x o y = [x,[T,y]] generates from V."""
+    """Return the iterated products of V that have the given weight. The product of two elements x and y is
+    the double commutator [x,[T,y]]."""
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -224,8 +227,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return generators of the ideal: the commutators [x, y] of all pairs of elements x and y from
-    :func:`_potentials`. Only commutators of weight at most ``order`` are returned."""
+    """Return generators of the ideal of the module docstring, up to the weight ``order``. The generators are
+    the commutators [x, y] of pairs x, y from :func:`_potentials`."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
@@ -276,8 +279,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of total order ``order``. Each factor is a functional of order at most ``heaviest``
-    from :func:`independent`."""
+    """Return all products of functionals from :func:`independent` whose orders add up to ``order``. No factor
+    has an order above ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

@@ -1,9 +1,9 @@
-"""The symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. The integrators with one stage
-are theta-methods. The family is equal to ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods without
-brackets in dexpinv.
+"""Symplectic Lie group integrators (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
+PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
-The order is at most two (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis,
-NTNU Trondheim, 2014).
+The family contains the same methods as ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods in which
+dexpinv is replaced by the identity, so that no brackets are computed. The order is at most two. The methods
+with one stage are theta-methods.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Splittings of a vector field A + B + .... The summands A, B, ... are called the parts of the splitting.
 Each step is a product of flows of the parts.
 
-The conditions are indexed by words over A, B, .... One step of size h is the product ``... exp(b_1 h B)
-exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. In the exact flow exp(h (A + B +
-...)), every word of n letters has the coefficient 1/n! (HLW III.5; McLachlan and Quispel, Acta Numerica 11
-(2002) 341).
+The conditions are indexed by words over A, B, .... If there are two parts, one step of size h is the product
+``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B) exp(a_1 h A)``. The rightmost flow acts first, so A acts first in
+each stage. In the exact flow, every word of n letters has the coefficient 1/n! (HLW III.5; McLachlan and
+Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings of a vector field into several fields, called parts. The number of parts is ``parts``. The
-    letters 0, 1, ... of words denote the parts A, B, ... of the tableau file.
+    """Splittings of a vector field into several fields, called parts. The argument ``parts`` is the number of
+    parts. A word is a sequence of indices 0, 1, ... of parts. In texts the parts are denoted by A, B, ....
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -76,8 +76,8 @@ class SplittingFamily(WordFamily):
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if ``method`` does not split the vector field into
-        ``self.parts`` fields."""
+        """Raise :class:`~orderconds.errors.InputError` if the number of parts of ``method`` is not
+        ``self.parts``."""
         parts = expect(method, Splitting).parts
         if len(parts) != self.parts:
             right = SplittingFamily(len(parts)).label()
@@ -136,8 +136,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. Up to
-        order 3, both families have the same conditions."""
+        """Return a lower bound of the order that follows from the order in the family ``rkn``. The bound is
+        at most 3, because both families have the same conditions only up to order 3."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -155,7 +155,7 @@ class SplittingFamily(WordFamily):
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the step sizes of a splitting with ``stages`` stages. Every stage
+        """Return the unknowns of a method with ``stages`` stages: the step sizes of a splitting. Every stage
         contains the flows of all parts."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
@@ -192,9 +192,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # The index i of a block of equal letters is a stage, and j is the stage of the next block. In
-            # each stage, the flow of A acts first, then the flow of B, and so on. If the letter of the first
-            # block comes earlier in the alphabet, both blocks may belong to the same stage: i <= j.
+            # A block of equal letters belongs to stage i, and the next block belongs to stage j. In each
+            # stage, the flow of A acts first, then the flow of B, and so on. Hence both blocks may belong to
+            # the same stage if their letters are in alphabetical order.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -208,8 +208,9 @@ def splitting_formula(word: Word) -> Formula:
 def two_part_formula(word: Word) -> Formula:
     """Return the left-hand side of the condition of a word over two letters A and B, as an index sum.
 
-    Let c_i = a_1 + ... + a_i. If the first letter B belongs to stage i, each letter A before it gives the
-    factor c_i. Each letter A between two letters B of stages i < j gives the factor c_j - c_i.
+    Let c_i = a_1 + ... + a_i. If the first letter B belongs to stage k, each letter A before it gives the
+    factor c_k. Let i be the stage of a letter B, and let j be the stage of the next letter B. Each letter A
+    between these two letters B gives the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -254,8 +255,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
     """Yield all ways to divide runs of equal letters into blocks. ``lengths`` contains the lengths of the
     runs.
 
-    Each result is a pair: the product of the multinomial coefficients of all runs, and the block lengths of
-    each run.
+    Each result is a pair. The first entry is a product of multinomial coefficients, one for each run. The
+    second entry contains the block lengths of each run.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
