@@ -1,6 +1,7 @@
-"""The working precision of flint, a global variable of the process. Only this module changes the precision.
+"""The working precision of flint, a global variable of the process.
 
-Other modules use the context manager :class:`precision`, which restores the previous precision at the end.
+The project changes the precision only by the context manager :class:`precision`, which restores the previous
+precision at the end.
 """
 
 from __future__ import annotations

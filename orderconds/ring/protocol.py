@@ -21,7 +21,7 @@ Key = tuple[Any, ...]
 
 
 class Ring(Protocol):
-    """A commutative ring over the rationals."""
+    """A commutative ring into which rational numbers can be converted."""
 
     name: str
     zero: Element

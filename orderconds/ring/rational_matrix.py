@@ -23,9 +23,9 @@ def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction
     """Yield a basis of the kernel of the matrix with these rows and ``width`` columns. Each vector is a list
     of pairs (index, entry) of its non-zero entries.
 
-    The first pair of a basis vector is (k, 1), where column k of the matrix is not a pivot column. The
-    indices of all other pairs belong to pivot columns. A column is a pivot column if it is not a combination
-    of columns to its left.
+    A column of the matrix is a pivot column if it is not a linear combination of the columns to its left. For
+    each column k that is not a pivot column, the basis contains one vector. Its first pair is (k, 1), and the
+    indices of its other pairs belong to pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

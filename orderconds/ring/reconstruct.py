@@ -8,12 +8,13 @@ from math import isqrt, prod
 
 
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
-    """Return the fraction p/q with the given residues modulo the primes. Only fractions for which |p| and q
-    are at most sqrt(M/2) are considered, where M is the product of the primes. At most one of these fractions
-    has the given residues.
+    """Return the fraction p/q with the given residues modulo the primes, one residue for each prime.
+
+    Let M be the product of the primes. At most one fraction with |p| <= sqrt(M/2) and 0 < q <= sqrt(M/2) has
+    the given residues. Raises ArithmeticError if no fraction within these bounds has the residues.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
-    Section 5.10). Raises ArithmeticError if there is no such fraction.
+    Section 5.10).
 
     >>> primes = (10007, 10009)
     >>> print(rational_number([-5 * pow(12, -1, p) % p for p in primes], primes))

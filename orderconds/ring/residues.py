@@ -1,7 +1,8 @@
 """Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute how many
 conditions are independent.
 
-A vector contains the values of one coefficient in many random tableaux, one entry (sample) for each tableau.
+A vector contains the values of one quantity in many random tableaux, one entry (sample) for each tableau. The
+quantity is, for example, a coefficient of the tableau or the left-hand side of an order condition.
 The prime is below 2^31, so that products fit in 64 bits.
 """
 
@@ -18,7 +19,7 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring (Z/prime)^samples. A fraction p/q is an element only if the prime does not divide q.
+    """The ring of vectors of ``samples`` residues modulo ``prime``, with componentwise arithmetic.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)

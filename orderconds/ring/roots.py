@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A nearby decimal specifies a root. Balls around the root can be
-computed to any precision."""
+"""Real roots of rational polynomials. A root is given by a polynomial and a decimal near the root. Balls
+around the root can be computed to any precision."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from orderconds.ring.precision import precision
 
 
 def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, Enclosure]:
-    """Return a monic irreducible factor of a polynomial, and a real root of the factor.
+    """Return a monic irreducible factor of a polynomial, and a function that computes a real root of the
+    factor. The argument of the function is a precision in bits, and the result is a ball around the root.
 
     The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The ``coefficients`` are in ascending order.
+    interval does not contain exactly one root. The ``coefficients`` of the polynomial are in ascending order.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -32,7 +33,7 @@ def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
     interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
-    ascending order. Coefficients are also in ascending order.
+    ascending order. The coefficients of a polynomial are listed by ascending powers.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -48,11 +49,11 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return a pair (factor, index). The polynomial with the given ``coefficients`` must have exactly one
-    real root in [near - unit, near + unit].
+    """Return a monic irreducible factor of a polynomial, and the index of a real root of the factor.
 
-    The factor is the monic irreducible factor of the polynomial that has this root. The index counts the real
-    roots of the factor from 0, in ascending order.
+    The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
+    interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
+    ascending order. The ``coefficients`` of the polynomial are in ascending order.
     """
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
@@ -69,8 +70,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
     """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
 
-    The decimal differs from ``root`` by at most one unit of its last place. It differs from all other real
-    roots of ``monic`` by more than one unit.
+    Let u be one unit in the last place of the decimal. The decimal differs from ``root`` by at most u, and
+    from every other real root of ``monic`` by more than u.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision
@@ -102,7 +103,8 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
     """Return balls around the real roots of a polynomial, in ascending order. The index of a root in the
-    result does not depend on the precision ``bits``. The polynomial need not be monic.
+    result does not depend on the precision ``bits``. The leading coefficient of the polynomial may differ
+    from 1, although the argument has the name ``monic``.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

@@ -2,7 +2,8 @@
 
 A vector of n samples is represented by a polynomial of degree below n over Z/p, where p is the prime. Sample
 k is the value of the polynomial at z = k. The map from the samples to the coefficients of the polynomial is
-linear and invertible. Hence ranks can be computed from the coefficients.
+linear and invertible. Hence several vectors of samples are linearly independent exactly if the coefficient
+vectors of their polynomials are linearly independent.
 """
 
 from __future__ import annotations
@@ -63,9 +64,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x. If each column of a matrix
-        contains the samples of one vector, the columns may be replaced by these coefficients: the rank does
-        not change."""
+        """Return the ``count`` coefficients of the polynomial that represents x, in ascending order. Elements
+        are linearly independent exactly if the vectors of their coefficients are linearly independent."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

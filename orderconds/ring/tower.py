@@ -7,8 +7,9 @@ A root b of a polynomial p over K = Q(a) is adjoined in three steps:
 2. Factor the characteristic polynomial of c.
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
-If the irreducible factor has the degree of K, then K contains b, and no new field is formed. For example, if
-K contains sqrt(2), then sqrt(8) is represented as 2 sqrt(2).
+The degree of the irreducible factor is the degree of K(b) over Q. If K has the same degree over Q, then K
+contains b, and no new field is formed. For example, if K contains sqrt(2), then sqrt(8) is represented as
+2 sqrt(2).
 """
 
 from __future__ import annotations
@@ -27,8 +28,8 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree of a field. In a field of higher degree, exact arithmetic is slower than arithmetic with
-balls."""
+"""The largest degree over Q of a field that is constructed. If a higher degree is necessary,
+:class:`DegreeError` is raised."""
 MAX_DIMENSION = 64
 """The largest dimension of an algebra that is constructed to adjoin a root."""
 
@@ -39,8 +40,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A number field that is extended when a root is adjoined. Earlier elements remain valid, and are
-    converted to the current field when necessary.
+    """A number field that is extended when a root is adjoined. Elements of the field before the extension
+    can be combined with elements of the extended field.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -67,8 +68,8 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field, and a function that converts every number of the tower to an element of
-        this field."""
+        """Return the current field, and a function that converts the elements of earlier fields to elements
+        of this field."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -96,8 +97,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational number times a root of an integer. Prime powers are taken out of
-        the root to make this integer small."""
+        """Return x^(1/index) as a rational number times a root of a small integer. For example, the square
+        root of 8 is represented as 2 sqrt(2)."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -155,7 +156,7 @@ class Tower:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeError(f"the field would require an algebra of dimension {dimension}")
+            raise DegreeError(f"an algebra of dimension {dimension} is too large to adjoin a root")
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -177,8 +178,8 @@ class Tower:
 
 
 class _Relation:
-    """The algebra K[x]/(p) over Q, described by an element c that generates it. Here K = Q(a) is a number
-    field, and p is a polynomial over K.
+    """A description of the algebra K[x]/(p) over Q, where K = Q(a) is a number field and p is a polynomial
+    over K. The element c generates the algebra, so that all elements are polynomials in c.
 
     - ``characteristic``: the characteristic polynomial of c.
     - ``a``: the element a as a polynomial in c.
@@ -192,11 +193,11 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return a pair (m, relation) for an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a)
-    is ``field``, and p = x^k - sum_j powers[j] x^j with k = len(powers).
+    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m that defines c, and a
+    :class:`_Relation` that describes the algebra by c. Here K = Q(a) is ``field``, and p is the polynomial
+    x^k - sum_j powers[j] x^j with k = len(powers).
 
-    Let b be the residue class of x. Then c = b + m a if m is an integer, and c = a b if m is None. The class
-    :class:`_Relation` describes ``relation``.
+    Let b be the residue class of x. If m is an integer, then c = b + m a. If m is None, then c = a b.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -225,12 +226,11 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of an element of the algebra K[x]/(p) and the element c. The function
+    """Return the product of ``vector`` and c, two elements of the algebra K[x]/(p). The function
     :func:`_primitive` defines K = Q(a) and p.
 
-    Let b be the residue class of x, and let m be ``multiplier``. Then c = b + m a if m is an integer, and c =
-    a b if m is None. The argument ``vector`` and the result contain the coefficients of the powers 1, b, b^2,
-    and so on.
+    Let b be the residue class of x, and let m be ``multiplier``. If m is an integer, then c = b + m a. If m
+    is None, then c = a b. An element of the algebra is a list of the coefficients of 1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -244,8 +244,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return a matrix over Q with one column for each element in ``columns``. An element of K[x]/(p) is a
-    list of coefficients in K, and its column contains the rational coordinates of the coefficients."""
+    """Return a matrix over Q with one column for each list in ``columns``. A list contains elements of a
+    number field of the given ``degree``. Its column contains the coordinates of all these elements."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -277,8 +277,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return the prime factors of a positive integer n, as pairs (factor, exponent). If n has more than 128
-    bits, the last factor in the list may be composite."""
+    """Return a factorization of a positive integer n, as pairs (factor, exponent). If n has at most 128 bits,
+    the factors are primes. For larger n, the last factor may be composite."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

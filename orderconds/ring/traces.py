@@ -2,8 +2,8 @@
 An element is the index of an operation in the program, or a constant.
 
 An algorithm that runs over this ring records its operations as a program. The program can then be evaluated
-for any input values. Equal operations are recorded once. Operations on constants, and products with 0 or 1,
-are computed at once and not recorded.
+for all input values. Equal operations are recorded once. The sum and the product of two constants are
+computed immediately, and no operation is recorded. Products with 0 or 1 are also not recorded.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are indices of earlier operations. The meaning of ``value`` depends on ``kind``:
+    ``left`` and ``right`` are the indices of the operations that compute the operands. A constant and an
+    input have no operands. The meaning of ``value`` depends on ``kind``:
 
     - CONSTANT: the rational number.
     - INPUT: the position of the input among all inputs.
@@ -37,8 +38,10 @@ class Operation:
 
 
 class Traces:
-    """The ring whose elements are constants and operations of one program with ``width`` inputs.
-    ``operations`` contains all recorded operations of the program.
+    """A ring that records a program with ``width`` inputs. An element is a constant or the result of an
+    operation of the program. The list ``operations`` contains all recorded operations.
+
+    In the example, the program has two inputs (kind 5), a sum (kind 0) and a product (kind 1).
 
     >>> R = Traces(2)
     >>> x, y = R.inputs
@@ -73,7 +76,8 @@ class Traces:
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
-        """Return a constant x as a rational number. For the result of operation n, return ``%n``."""
+        """Return the text of an element x. If x is a constant, the text is a rational number. If x is the
+        result of the operation with index n, the text is ``%n``."""
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
@@ -81,7 +85,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return the same text as :meth:`text`, because an element of this ring has no numerical value."""
+        """Return the same text as :meth:`text`, because the result of an operation has no numerical value."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -103,8 +107,8 @@ class Traces:
 
 
 class Trace:
-    """An element of the ring :class:`Traces`. It is the index of a recorded operation, or a rational number
-    that is not recorded yet."""
+    """An element of the ring :class:`Traces`. An element is a rational number, or the result of a recorded
+    operation. In the second case, ``place`` is the index of the operation."""
 
     __slots__ = ("constant", "place", "ring")
 
@@ -115,8 +119,8 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation that computes this element. A constant is first recorded as an
-        operation."""
+        """Return the index of the operation that computes this element. If the element is a constant, record
+        it as an operation, and return the index of this operation."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:

@@ -1,6 +1,7 @@
-"""Polynomials over Q in one variable, the time s, for iterated integrals over [0, 1].
+"""Polynomials over Q in one variable, for iterated integrals over [0, 1].
 
-Elements have python-flint's type ``fmpq_poly``, which supports ``+ - *``.
+The polynomials have python-flint's type ``fmpq_poly``, which supports ``+ - *``. This type always prints the
+variable as x.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 - ``lie_butcher``: series over ordered forests, for products of exponentials and for the exact flow.
 - ``dexpinv``: the series of Runge-Kutta-Munthe-Kaas methods.
 - ``action``: the series of variational methods.
-- ``characters``: composition and inverse of steps, computed from admissible cuts.
-- ``modified_equations``: backward error analysis.
-- ``substitution``: the series of a step if the vector field is itself a series.
+- ``characters``: the series of the composition of two steps, and of the inverse of a step.
+- ``modified_equations``: the series of the modified equation (backward error analysis).
+- ``substitution``: the series of a step after the vector field is replaced by a series.
 """

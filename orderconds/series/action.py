@@ -2,9 +2,9 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
 velocity and each stage momentum is a sum over trees (:mod:`orderconds.series.action_trees`). Velocities are
-sums over the trees t = (w, M). Momenta are sums over the trees H(u*v|M) and L(w). Here u, v and w are words
-of smaller trees, and M is a multiset of smaller trees. Stage i has the weight b_i. At stage i, the trees have
-the coefficients
+sums over trees that are pairs t = (w, M). Momenta are sums over two kinds of trees, which are written
+H(u*v|M) and L(w). In these expressions, u, v and w are words of smaller trees, and M is a multiset of smaller
+trees. Stage i has the weight b_i. At stage i, the trees have the coefficients
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
@@ -44,10 +44,11 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    The weights b_i must be invertible in ``ring``. The argument ``row`` of the functions in this class
-    selects a group element. If ``row`` is less than the number of stages, it selects the group element of the
-    stage with this index. If ``row`` is equal to the number of stages, it selects the group element of the
-    update.
+    The weights b_i must be invertible in ``ring``. Several functions of this class have an argument ``row``,
+    which selects a group element. An index of a stage selects the group element of this stage. The number of
+    stages selects the group element of the update.
+
+    The example computes coefficients of the implicit midpoint rule.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -66,14 +67,13 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
-        stages, the group element is that of the update."""
+        """Return the coefficient of a word in the group element that ``row`` selects."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
-        ``before``, v is ``after``, and the letter x is a variation of the velocity of the stage with index
-        ``stage``."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
+        and v are ``before`` and ``after``. The letter x denotes a variation of the velocity of one stage, and
+        ``stage`` is the index of this stage."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return one number for each stage: the coefficient of a word of trees in the group element of the
@@ -81,8 +81,8 @@ class ActionSeries(ABC):
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return the coefficient tau_t(i) for each stage i, where t is the g-valued ``tree``. It is the
-        coefficient of t in the velocity of stage i."""
+        """Return the coefficient tau_t(i) of the g-valued tree t in the velocity of stage i, for each stage
+        i. The argument ``tree`` is t."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -96,8 +96,8 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return the coefficient psi_p(i) for each stage i, where p is the g*-valued ``tree``. It is the
-        coefficient of p in the momentum of stage i."""
+        """Return the coefficient psi_p(i) of the g*-valued tree p in the momentum of stage i, for each stage
+        i. The argument ``tree`` is p."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -106,8 +106,8 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return the product of the coefficients psi_p(i) over all trees p of a multiset, for each stage
-        i."""
+        """Return one number for each stage i: the product of the coefficients psi_p(i) (see :meth:`psi`) of
+        all trees p in ``momenta``."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -148,7 +148,7 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return the left-hand side of the condition of a tree t: the number sum_i b_i tau_t(i).
+        """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i).
 
         This number is the coefficient of t in the update. It is also the coefficient of the elementary
         Hamiltonian of t in the generating function of the step. To save memory, the coefficients tau_t(i) are
@@ -167,8 +167,7 @@ class ActionSeries(ABC):
         For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ... t_k`` of
         ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``.
 
-        The same coefficients determine the momentum
-        (:meth:`orderconds.series.action_fields.ActionFields.local_error`).
+        The function :meth:`orderconds.series.action_fields.ActionFields.local_error` uses these coefficients.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -178,6 +177,8 @@ class CommutatorFreeSeries(ActionSeries):
 
     ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
     b_i is the sum of the coefficients of stage i in the update (Bogfjellmo and Marthinsen, equation (3.18)).
+
+    The example computes the left-hand sides of the order conditions of the three trees with two vertices.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -201,19 +202,17 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element that ``row`` selects.
 
-        Let J_l be the index of the exponential that contributes the letter t_l. The coefficient is
-
-        sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!.
-
-        Here phi_J(t) is the coefficient of the letter t in the exponent of exponential J. A run is a maximal
-        block of equal indices J_l.
+        Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
+        the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. The term of a
+        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k, divided by n! for each
+        exponential that occurs n times in the sequence.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
-        ``before``, v is ``after``, and the letter x is a variation of the velocity of the stage with index
-        ``stage``."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
+        and v are ``before`` and ``after``. The letter x denotes a variation of the velocity of one stage, and
+        ``stage`` is the index of this stage."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -222,9 +221,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
-        ``before``, and v is ``after``. The letter x occurs only in the exponential with index ``place``, and
-        has the coefficient one in its exponent."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
+        and v are ``before`` and ``after``. The letter x is added to the exponent of the exponential with
+        index ``place``, with the coefficient one. The other exponents do not contain x."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -275,9 +274,9 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in products of exponentials. Entry k is the coefficient in the
-        product that remains if the first k exponentials of the group element are omitted. The argument
-        ``row`` selects the group element."""
+        """Return the coefficients of ``word`` in products of exponentials. The argument ``row`` selects a
+        group element. Entry k of the result is the coefficient in the product of all exponentials of this
+        group element except the first k."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known
