@@ -142,11 +142,14 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def highest_order(self, limit: int) -> int:
         """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff`` of ad.
-        The result is at most ``limit``.
+        The result is at most ``limit``. ValueError is raised if ``limit`` is above :data:`RANKED`, because
+        the independent conditions of higher orders are not known.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
         """
+        if limit > RANKED:
+            raise ValueError(f"the limit is {limit}; expected at most {RANKED}")
         for n in range(1, limit + 1):
             if len(self.essential_conditions(n)) > rooted_tree_count(n):
                 return n - 1

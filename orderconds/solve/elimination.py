@@ -124,9 +124,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
     for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
-        found = _consequence(problem, variables, [x for _, x in members], plain)
-        if found is not None:
-            certificate = _certificate(variables, members, *found, plain)
+        contradiction = _consequence(problem, variables, [x for _, x in members], plain)
+        if contradiction is not None:
+            certificate = _certificate(variables, members, *contradiction, plain)
             if certificate is not None:
                 return certificate
     return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -163,7 +163,7 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
         constraints.append(sum_to_one([x for line in update for x in line]))
     totals = _gauss(spec.stages) if structure.endswith("gauss") else {}
     if totals:
-        constraints += _totals(stages, update, totals)
+        constraints += _totals(stages, update)
         names = [*totals, *names]
     elimination = eliminated(names, spec, constraints)
     extra |= {name: text for name, text in totals.items() if name in elimination.free}
@@ -220,9 +220,7 @@ def _gauss(s: int) -> dict[str, str]:
     return weights | {f"g{i + 1}{j + 1}": text(method.A[i][j]) for i in every for j in every}
 
 
-def _totals(
-    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
-) -> list[Constraint]:
+def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
     """Return the constraints that a method has the same sums of coefficients as a Gauss method.
 
     Let a_ij and b_j be the coefficients of the Gauss method with the same number of stages. In the

@@ -266,7 +266,7 @@ def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
             "generator 0 of the part bonds is not constant along the flow",
         ),
         ({"bonds": Pair((-1,), S, S)}, r"the offset \(-1,\) of the part bonds"),
-        ({"bonds": Pair((0, 1), S, S)}, "a length that differs from the dimension of the lattice"),
+        ({"bonds": Pair((0, 1), S, S)}, "more entries than the lattice has dimensions"),
         ({"bonds": Pair((1,), S, [0])}, "has 1 components"),
         ({"single": [Symbol("t"), 0, 0]}, "the part single depends on t"),
         ({"single": neighbour(S, (1,))}, "has no value"),

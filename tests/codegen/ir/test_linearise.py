@@ -101,5 +101,5 @@ def test_a_function_without_an_expansion_is_refused(function):
     space = Space()
     x = space.sym("x")
     call = space.call(function, x, x + 1) if function == "quotient" else space.call(function, x)
-    with pytest.raises(NotLinearised, match=f"the function {function} has no rule"):
+    with pytest.raises(NotLinearised, match=f"the function {function} cannot be expanded in h"):
         FirstOrder(["x"]).jacobian([call])

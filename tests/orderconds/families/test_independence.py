@@ -114,3 +114,5 @@ def test_cutting_dexpinv_allows_no_higher_order_than_r_plus_two(cutoff, order):
 def test_cutting_dexpinv_after_the_fourth_or_fifth_power_leaves_order_seven(cutoff):
     assert families.get("rkmk", cutoff=cutoff).highest_order(8) == 7
     assert families.get("rkmk", cutoff=6).highest_order(8) == 8
+    with pytest.raises(ValueError, match="expected at most 8"):
+        families.get("rkmk", cutoff=6).highest_order(9)
