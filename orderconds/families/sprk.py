@@ -1,9 +1,11 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-If the root of a tree moves along one edge, the relation b_i ahat_ij = b_i b_j - b_j a_ji connects the old and
-the new elementary weight. The sum of the two weights is a product of weights of smaller trees. Therefore one
-condition for each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW VI.7).
+Suppose that two trees differ only in the choice of the root, and the two roots are neighbours. Then the sum
+of their elementary weights is a product of weights of smaller trees, because b_i ahat_ij + b_j a_ji = b_i
+b_j. If the conditions of the smaller trees hold, the conditions of the two trees are equivalent. Therefore
+one condition for each free tree (a tree without a root) suffices. The edges of the free trees are directed
+(Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -35,8 +37,8 @@ from orderconds.trees.directed import (
 )
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
-"""A function that returns the elementary weight of a rooted tree as a polynomial in the elementary weights of
-free trees."""
+"""A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
+of independent trees. Each free tree, with one choice of the root, is an independent tree."""
 
 
 @register
@@ -71,17 +73,21 @@ class SymplecticPartitionedFamily(Family):
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree with directed edges. Each
-        dependent condition stores its relation to the independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree with directed edges.
+
+        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
+        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        """
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
         """Return the elementary weights of a tableau (A, b), one for each element of ``conditions``. The ring
-        needs division, because the formulas divide by b_i.
+        must support division, because the formulas divide by b_i.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` if one of the weights b_i is or may be zero.
+        Raises :class:`~orderconds.errors.ZeroWeight` if a weight b_i is zero, or is an interval that contains
+        zero.
         """
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
@@ -97,23 +103,24 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b) without zero weights, else None.
+        """Return this family if the file of ``tableau`` should state an order in this family, else None.
 
-        The file of such a tableau should state the order of the method in this family.
+        The file should state an order if the tableau has the form (A, b) without zero weights.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the tableau is proved to be symmetric. The conjugate (ahat, b) is then also
-        symmetric."""
+        """Return True if the tableau is proved to be symmetric. The symmetry of (a, b) implies that
+        the conjugate tableau (ahat, b) is symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family.
+        """Return a lower bound of the order of ``method`` in this family.
 
-        Let p be the order in the family ``rk``. If ahat_ij = a_ij, the bound is p. If Butcher's simplifying
-        assumptions B(2m), C(m) and D(m) hold for a_ij, then C(m) and D(m) also hold for ahat_ij. In this case
-        the bound is min(p, 2m + 1), by the proof of Butcher's theorem (Jay 1996, for Lobatto pairs).
+        ``orders`` contains the order p of the method in the family ``rk``. For a symplectic tableau, ahat_ij
+        equals a_ij, and the bound is p. For all other tableaux, let m be the largest number with 2m <= p for
+        which Butcher's simplifying assumptions C(m) and D(m) hold. Then C(m) and D(m) also hold for ahat_ij,
+        and the bound is min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

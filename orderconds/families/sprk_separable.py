@@ -1,9 +1,11 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-For separable Hamiltonians, neighbouring vertices of every tree differ in colour. The relation b_i ahat_ij +
-bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
-root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
-and bhat may differ, for example if the pair is equivalent to a splitting.
+The conditions belong to trees with vertices of two colours, one for p and one for q. Neighbouring vertices
+differ in colour, because H is separable. The tableaux (a, b) and (ahat, bhat) form a symplectic pair if b_i
+ahat_ij + bhat_j a_ji = b_i bhat_j. Suppose that two trees differ only in the choice of the root, and that all
+conditions of lower order hold. For a symplectic pair, the conditions of the two trees are equivalent.
+Therefore one condition for each free tree (a tree without a root) suffices (Abia and Sanz-Serna 1993; HLW
+VI.7.2). The weights b and bhat may differ, for example if the pair is equivalent to a splitting.
 """
 
 from __future__ import annotations
@@ -30,8 +32,8 @@ from orderconds.trees.bicoloured import alternating, alternating_free_trees, mov
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
-"""A function that returns the elementary weight of a rooted tree as a polynomial in the elementary weights of
-free trees."""
+"""A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
+of independent trees. Each free tree, with one choice of the root, is an independent tree."""
 
 
 @register
@@ -58,8 +60,11 @@ class SeparableFamily(Family):
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree with alternating colours. Each
-        dependent condition stores its relation to the independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree with alternating colours.
+
+        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
+        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        """
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
@@ -71,10 +76,11 @@ class SeparableFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a pair of tableaux, or of a single tableau and its conjugate.
+        """Return the elementary weights of a pair of tableaux, or of a single tableau (A, b) and its
+        symplectic conjugate.
 
         Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau with a weight b_i = 0, because the
-        conjugate then does not exist.
+        coefficients of the conjugate are quotients with the denominators b_i.
         """
         if isinstance(method, PartitionedRungeKutta):
             return rooted_weights(method, ring, conditions)
@@ -85,9 +91,9 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a symplectic pair of tableaux, else None.
+        """Return this family if the file of ``tableau`` should state an order in this family, else None.
 
-        The tableau file of such a pair should state the order of the method in this family.
+        The file should state an order if the tableau is a symplectic pair.
         """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
@@ -98,7 +104,7 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the coefficients of one tableau (A, b)."""
+        """Return the coefficients of one tableau (A, b). They are the unknowns of a search for methods."""
         return tableau_form(stages, explicit, divides=True)
 
 
@@ -106,8 +112,8 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
     """Raise :class:`~orderconds.errors.InputError` if the pair of tableaux (a, b) and (ahat, bhat) is not
     symplectic.
 
-    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. If the coefficients are
-    balls (intervals), the error is raised only if the two sides are proved to be different.
+    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. For coefficients that
+    are intervals, the error is raised only if one of these equations is proved to be false.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -20,7 +20,7 @@ class StageForm(Struct, frozen=True):
     """The coefficients of a method with a fixed number of stages.
 
     ``names`` contains the names of the coefficients. The function ``method`` builds the method from the
-    values of the coefficients in a ring.
+    values of the coefficients. The values are elements of a ring.
 
     ``divides`` is true if formulas of the family divide by the weights b_i.
     """
@@ -50,9 +50,9 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. Families whose coefficients are
-    not a tableau (A, b) call this function: a method is explicit only if its matrix A is strictly lower
-    triangular.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. The option ``explicit``
+    restricts the matrix A of a method to strictly lower triangular matrices. Families whose methods have no
+    matrix A call this function.
 
     >>> refuse_explicit("splitting", False)
     """

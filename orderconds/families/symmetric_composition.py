@@ -1,8 +1,10 @@
 """Symmetric compositions of a symmetric method of order two.
 
-The basic method is symmetric. Therefore its logarithm contains only odd powers of the step size h. Letter k
-denotes the term with h^k, so all letters are odd. The composition is symmetric as well. Hence the conditions
-of even order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+One step of the basic method is the exponential of a power series in the step size h. The series contains
+only odd powers of h, because the basic method is symmetric. Each condition belongs to a word. Letter k of a
+word denotes the term with h^k in the series, so all letters are odd. The composition is symmetric, because
+its step sizes form a palindrome. Hence its conditions of even order follow from conditions of lower order
+(HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -51,10 +53,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     name = "symmetric_composition"
     description = (
-        "Symmetric compositions of a symmetric method of order two; words of odd weight index the conditions."
+        "Symmetric compositions of a symmetric method of order two; independent conditions have odd orders."
     )
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"composition": "symmetric compositions belong to both families"}
+    implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
     bounds_others = False
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -77,8 +79,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words over odd letters. If the order is even, the result is empty, because
-        conditions of even order follow from conditions of lower order."""
+        """Return the Lyndon words of odd letters with the sum ``order``. If ``order`` is even, the result is
+        empty, because conditions of even order follow from conditions of lower order."""
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -91,8 +93,10 @@ class SymmetricCompositionFamily(CompositionFamily):
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the first half of the step sizes, and the middle step size if
-        ``stages`` is odd. The second half follows by symmetry."""
+        """Return the first half of the step sizes. They are the unknowns of a search for methods.
+
+        If ``stages`` is odd, the middle step size is also an unknown. The second half follows by symmetry.
+        """
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
         return StageForm(
@@ -101,10 +105,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a composition of a symmetric method if the step sizes form a palindrome,
-        else None.
+        """Return this family if the file of ``tableau`` should state an order in this family, else None.
 
-        The tableau file of such a composition should state the order of the method in this family.
+        The file should state an order if the method is a composition of a symmetric method and its step sizes
+        form a palindrome.
         """
         method = tableau.method
         if not isinstance(method, Composition):
@@ -112,7 +116,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None, because this family is itself the family of symmetric compositions."""
+        """Return None, because no family with fewer conditions is known for symmetric compositions."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -139,10 +143,10 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # In the logarithm of the step, a word of even weight has the coefficient zero. This coefficient is a sum
-    # over all divisions of the word into m parts. Each term is (-1)^(m+1)/m times the product of the
-    # coefficients of the parts in the series of the step. The equation "sum = 0" is solved for the term with
-    # m = 1, the coefficient of the whole word.
+    # The coefficient of a word of even weight in the logarithm of the step is zero. It is a sum over all ways
+    # to cut the word into parts. Each term is the product of the coefficients of the parts in the series of
+    # the step. A term with m parts has the factor (-1)^(m+1)/m. The term with m = 1 is the coefficient of the
+    # whole word. It equals the sum of the other terms with the opposite sign.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

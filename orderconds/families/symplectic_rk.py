@@ -23,8 +23,9 @@ from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
-"""A function that returns the elementary weight of a rooted tree as a polynomial in elementary weights of
-free trees. Free trees that an edge divides into two equal halves do not occur in the polynomial."""
+"""A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
+of independent trees. Each free tree, with one choice of the root, is an independent tree. If an edge divides
+a free tree into two equal halves, the tree is left out."""
 
 
 @register
@@ -48,13 +49,16 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of the given order, one for each free tree that no edge divides
-        into equal halves."""
+        """Return the independent conditions of the given order, one for each free tree. If an edge divides
+        a free tree into two equal halves, the tree is left out."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree. Each dependent condition stores
-        its relation to the independent conditions."""
+        """Return the conditions of the given order, one for each rooted tree.
+
+        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
+        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        """
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -1,6 +1,6 @@
-"""Taylor's method of degree P: the step is the Taylor polynomial of the solution, computed by recurrences.
+"""Taylor's method of degree P: each step evaluates the Taylor polynomial of the solution.
 
-Automatic differentiation of the vector field gives the coefficients of the polynomial. The family has no
+Recurrences compute the coefficients of the polynomial (automatic differentiation). The family has no
 tableau and no order conditions, because the order is P for every vector field (A. Jorba and M. Zou, *A
 software package for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental
 Mathematics 14 (2005) 99).
@@ -50,8 +50,10 @@ class TaylorFamily(Family):
         self.degree = degree
 
     def label(self) -> str:
-        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``, or ``taylor``
-        if no degree is given."""
+        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``.
+
+        If no degree is given, return ``taylor``.
+        """
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
@@ -66,7 +68,8 @@ class TaylorFamily(Family):
         return self.degree
 
     def stability_coefficients(self) -> tuple[Fraction, ...]:
-        """Return the coefficients of the stability function R(z) = sum_{k <= P} z^k/k!."""
+        """Return the coefficients 1/k! of the stability function R(z) = sum_{k <= P} z^k/k!, where P is the
+        degree."""
         return tuple(Fraction(1, factorial(k)) for k in range(self.degree_of_step() + 1))
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -86,8 +89,8 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. A step of Taylor's method evaluates recurrences instead of the vector field, so the
-        numbers of :class:`Work` do not apply."""
+        """Return None, because a step of Taylor's method does not evaluate the vector field. It evaluates
+        recurrences instead."""
         return None
 
     def _unconditional(self) -> InputError:

@@ -1,13 +1,13 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
-Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The method
-consists of
+Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The
+coefficients of a method are alpha_iJj and beta_Jj. They define the method by the following formulas:
 
-- the discrete Lagrangian ``h sum_i b_i l(Q_i, xi_i)``;
-- the stage positions ``Q_i = exp(X_im) ... exp(X_i1) q0``, where ``X_iJ = h sum_j alpha_iJj xi_j`` is the
-  exponent number J of stage i, and alpha_iJj are coefficients of the method;
-- an update of the same form as the stages, with coefficients beta_Jj;
-- the weights ``b_i = sum_J beta_Ji``.
+- The position of stage i is ``Q_i = exp(X_im) ... exp(X_i1) q0``. The number m may depend on i.
+- The exponents are ``X_iJ = h sum_j alpha_iJj xi_j`` for J = 1, ..., m.
+- The position after the step has the same form, with beta_Jj instead of alpha_iJj.
+- The weight of stage i is ``b_i = sum_J beta_Ji``.
+- The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 
 The methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of Bogfjellmo and
 Marthinsen suggests. The family contains methods of order 3 with positive weights b_i.
@@ -42,9 +42,10 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    Random methods determine which conditions are independent. ``update`` is the number of exponentials in the
-    update of these methods, and ``stage`` is the number of exponentials in each stage. If both numbers are
-    None, there is one independent condition for each elementary Hamiltonian.
+    The conditions are evaluated for random methods in order to find independent conditions. ``update`` is the
+    number of exponentials in the update of the random methods, and ``stage`` is the number in each stage. By
+    default, both numbers grow with the order. In this case, there is one independent condition for each
+    elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -89,15 +90,15 @@ class VariationalCommutatorFree(ActionFamily):
         return CommutatorFreeSeries(ring, rows)
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
-        are alpha, beta, b and c."""
+        """Return the object that writes the conditions as formulas. The formulas are sums over indices and
+        contain the coefficients alpha, beta, b and c of the method."""
         return CommutatorFreeFormula()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None.
+        """Return this family if the file of ``tableau`` should state an order in this family, else None.
 
-        The tableau file of such a method should state the order of the method in this family.
+        The file should state an order if the method is commutator-free and has no zero weights.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):

@@ -1,9 +1,9 @@
 """Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
-Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of this source
-states the six conditions of order 3. The conditions of every order are computed from the action series, the
-series expansion of the discrete action.
+Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of their
+text states the six conditions of order 3. The module computes the conditions of every order from the action
+series. This series is the expansion of the discrete action.
 """
 
 from __future__ import annotations
@@ -67,16 +67,15 @@ class VariationalCrouchGrossman(ActionFamily):
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of a method with random coefficients in ``ring``.
 
-        The matrix A is full. The number of stages is large enough to show which conditions up to ``order``
-        are independent.
+        The matrix A is full. The method has enough stages to distinguish the conditions up to ``order``.
         """
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
-        are a, b and c."""
+        """Return the object that writes the conditions as formulas. The formulas are sums over indices and
+        contain the coefficients a, b and c of the method."""
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

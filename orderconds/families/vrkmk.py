@@ -1,10 +1,10 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``. Here
 dexpinv is the inverse of the differential of exp, a power series in ad.
 
-Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. The order is min(p, R +
-2), where p is the order as a symplectic partitioned Runge-Kutta method. Here R = r if r is 0 or odd, and R =
-r + 1 if r >= 2 is even. For some r this order is higher than the bound in Theorem 3.5.3 of Bogfjellmo and
-Marthinsen.
+Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Let p be the order of the
+symplectic partitioned Runge-Kutta method with the same tableau. Let R = r + 1 for even r >= 2, and R = r for
+all other r. The order of ``vrkmk(r)`` is min(p, R + 2). For some r, this number is larger than the bound in
+Theorem 3.5.3 of Bogfjellmo and Marthinsen.
 """
 
 from __future__ import annotations
@@ -56,16 +56,17 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the coefficient of an action tree."""
+        """Return the length of the longest word that contributes to the coefficient of an action tree. The
+        letters of such a word are smaller action trees."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
+        """Return one condition of the given order.
 
-        The condition belongs to the action tree ``o(o|L(o ... o))``, where L has ``order`` - 2 branches. The
-        module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
-        condition. The truncation of dexpinv changes no condition of an order below R + 3.
+        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the
+        returned condition. The truncation changes no condition of an order below R + 3. Return None if
+        dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -79,6 +80,6 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
-        are a, b and c."""
+        """Return the object that writes the conditions as formulas. The formulas are sums over indices and
+        contain the coefficients a, b and c of the method."""
         return MuntheKaasFormula(self.cutoff)

@@ -1,11 +1,11 @@
 """Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk_pade(r)``, in which the inverse of a truncated series
 of dexp replaces dexpinv.
 
-Let xi_i be the velocity at stage i, let X_i be the exponent of the stage, and let dexp^(r) be dexp, truncated
-after the r-th power of ad. Let v_i be the solution of the equation dexp^(r)(X_i) v_i = xi_i. The exponents
-are linear combinations of the vectors v_i. This is the alternative approach in Section 3.4.1 of Marthinsen's
-thesis. Each action tree gives one condition. The left-hand side of the condition is the coefficient of the
-tree in the action series of the method.
+Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp without
+the powers of ad above r. The exponent of stage i is X_i = h sum_j a_ij v_j, where v_j solves the equation
+dexp^(r)(X_j) v_j = xi_j. Section 3.4.1 of Marthinsen's thesis describes this approach. Each action tree gives
+one condition. The left-hand side of the condition is the coefficient of the tree in the action series of the
+method.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     name = "vrkmk_pade"
     description = (
-        "Variational Runge-Kutta-Munthe-Kaas methods: vrkmk_pade(r) inverts the series of dexp, "
-        "truncated after the power r."
+        "Variational Runge-Kutta-Munthe-Kaas methods: vrkmk_pade(r) truncates the series of dexp "
+        "after the power r and inverts the result."
     )
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
@@ -68,8 +68,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of the conditions. The coefficients in these sums
-        are a, b and c."""
+        """Return the object that writes the conditions as formulas. The formulas are sums over indices and
+        contain the coefficients a, b and c of the method."""
         return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
 
     @classmethod
@@ -86,5 +86,6 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, because no theorem about the truncation of dexp is used."""
+        """Return None. The project uses no theorem about conditions that the truncation of dexp leaves
+        unchanged."""
         return None

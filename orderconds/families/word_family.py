@@ -1,9 +1,9 @@
 """Families with one order condition for each word over an alphabet. Each letter of the alphabet has a weight.
 
-One step of a method and the exact flow are series over words. Both series are group-like: their coefficients
-satisfy the shuffle relations. Therefore the coefficients of Lyndon words are independent and determine all
-other coefficients (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts
-first.
+One step of a method and the exact flow are both expanded in series over words. In a word, the letters appear
+in the order in which they act. The coefficients of both series satisfy the shuffle relations. Therefore the
+coefficients of Lyndon words are independent and determine the coefficients of all words (Radford 1979;
+Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
 
 class WordFamily(Family):
-    """A family with one condition for each word over letters of positive weight."""
+    """A family with one condition for each word. Letters have positive weights. The order of a condition is
+    the sum of the weights of the letters in the word."""
 
     trees = "graded"
 
@@ -57,9 +58,9 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return a method whose coefficients are random elements of ``ring``. Each element contains several
-        samples, so the result represents one random method for each sample. The methods are general enough to
-        distinguish all conditions up to ``order``."""
+        """Return a method whose coefficients are random elements of ``ring``. An element of ``ring`` consists
+        of several numbers, so the result represents several random methods. Each method has enough
+        coefficients to distinguish the conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. The conditions of these words are independent.
@@ -90,8 +91,11 @@ class WordFamily(Family):
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all words of exactly the given order. Each dependent condition stores its
-        relation to the independent conditions."""
+        """Return the conditions of all words of exactly the given order.
+
+        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
+        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        """
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property
@@ -101,14 +105,14 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of each condition: the coefficient of the word in the series of one step,
-        times the factor :meth:`scale`."""
+        """Return the left-hand side of the condition of each word. It is the coefficient of the word in the
+        series of one step, multiplied by :meth:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the left-hand side of a condition as a polynomial in left-hand sides of independent
-        conditions."""
+        """Return a polynomial that equals the left-hand side of the condition of a word. The variables of the
+        polynomial are left-hand sides of independent conditions."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()
