@@ -96,7 +96,7 @@ def dependences(
 
     ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. If two
     primes give different numbers of independent conditions, the result for the smaller number is wrong and
-    is ignored.
+    is discarded.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
