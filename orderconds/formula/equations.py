@@ -1,7 +1,6 @@
-r"""Numbered equations in LaTeX for a paper. A picture of a tree may precede each equation. The equations are
-narrow enough for a two-column article.
+r"""Numbered equations in LaTeX for a paper. A picture of a tree may precede each equation.
 
-Long left-hand sides are broken between terms.
+Long left-hand sides are broken into lines that are narrow enough for a two-column article.
 """
 
 from __future__ import annotations
@@ -62,8 +61,8 @@ def numbered(equations: Sequence[Equation]) -> str:
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:
-    r"""Break a formula into lines of about ``line`` characters. Lines are broken before plus or minus signs,
-    if possible outside brackets.
+    r"""Break a formula into lines of about ``line`` characters. Each new line begins with a plus or minus
+    sign. A sign inside brackets is used only if the lines would otherwise be too long.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -85,8 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. A sign is ignored if it is inside braces, or if more
-    than ``within`` pairs of brackets enclose it."""
+    """Split a LaTeX formula before plus and minus signs. Signs inside braces are ignored. Signs inside more
+    than ``within`` pairs of brackets are ignored, too."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

@@ -1,8 +1,8 @@
-"""The syntax tree of index sums, the conversion to text, and functions that build and simplify formulas.
+"""Syntax trees of formulas with sums over indices, and functions that build and simplify them.
 
-While a formula is being built, its bound indices have unique names from :func:`fresh`. Finally, :func:`named`
-replaces these names by readable names. Upper-case indices run over exponentials. Lower-case indices run over
-stages.
+While a formula is being built, its bound indices have unique names from :func:`fresh`. When the formula is
+complete, :func:`named` replaces these names by readable names. Upper-case indices run over exponentials.
+Lower-case indices run over stages.
 """
 
 from __future__ import annotations
@@ -127,8 +127,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Factors that contain sums are slow to compare. A single factor of this kind is not compared, because it
-    # differs from all coefficients.
+    # The key of a factor that contains sums is slow to compute. If only one factor contains sums, no other
+    # factor is equal to it. Then the key None is sufficient.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -167,8 +167,10 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Return the sum of ``body`` over indices. A rational factor of ``body`` is written before the sum. If a
-    factor of ``body`` is an index sum, the result is one sum over the indices of both sums.
+    """Return the sum of ``body`` over ``indices`` that satisfy ``relations``.
+
+    A rational factor of ``body`` is written before the sum. If factors of ``body`` are sums, all sums are
+    combined into one.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()

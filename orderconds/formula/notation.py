@@ -19,8 +19,8 @@ class Notation(Struct, frozen=True):
     """The signs and brackets of one notation, ASCII or LaTeX.
 
     ``names`` maps names of coefficients to symbols, such as ``ahat`` to ``\\hat{a}``. ``total`` is the
-    summation sign. ``signs`` maps ``<`` and ``<=`` to their texts. ``reversed_signs`` maps them to the texts
-    of ``>`` and ``>=``.
+    summation sign. ``signs`` maps ``<`` and ``<=`` to these signs in the notation. ``reversed_signs`` maps
+    ``<`` to the sign for ``>``, and ``<=`` to the sign for ``>=``.
     """
 
     names: Mapping[str, str]
@@ -71,11 +71,10 @@ def subscript(written: str, notation: Notation) -> str:
 
 
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
-    """Return the text below a summation sign. If possible, relations are joined to a chain: ``i<j`` and
-    ``j<k`` give ``i<j<k``.
+    """Return the text below a summation sign. ``indices`` are the summation indices.
 
-    The sum binds ``indices``, and each chain begins with one of them. If the smallest index i of a chain is
-    free, the chain is decreasing: ``k>j>i``.
+    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. A chain does not begin with a free
+    index: if i is free, the chain is written as ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

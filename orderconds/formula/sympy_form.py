@@ -49,12 +49,12 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the limits of the summation ``indices``. If i is one of these indices, a relation ``i < j``
-    gives the upper limit j - 1 of i. If i is a free index, the relation gives the lower limit i + 1 of j."""
+    """Return the lower and upper limits of each summation index. The relation ``i < j`` gives one limit: if i
+    is a summation index, the upper limit of i is j - 1; if i is free, the lower limit of j is i + 1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost index comes first. The limits of an index may depend only on later indices.
-        # Therefore each pass chooses an index on which the limits of the remaining indices do not depend.
+        # In the arguments of sympy.Sum, the limits of an index may depend only on indices further right. The
+        # next index must therefore occur in no limit of the remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

@@ -5,7 +5,7 @@ The ``[proof]`` table of a tableau file (:mod:`orderconds.tableau.unknowns`) sel
 operator proves that the equations have exactly one solution within one unit of the last digit of each
 decimal. The operator also encloses the solution (:mod:`orderconds.proof.krawczyk`).
 
-The system of equations contains every independent condition of a family. A reduction is a theorem that makes
-some of these conditions unnecessary (:mod:`orderconds.proof.equations`). Other theorems derive the order in
-one family from orders in other families (:mod:`orderconds.proof.implications`).
+In general, the system of equations contains every independent condition of a family. A reduction is a theorem
+by which a smaller system is sufficient (:mod:`orderconds.proof.equations`). The module
+:mod:`orderconds.proof.implications` derives the order in one family from orders in other families.
 """

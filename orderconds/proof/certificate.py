@@ -43,8 +43,8 @@ class Certificate:
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: error bounds of the numbers that the file quotes from the publication of the method. The
-      keys are the names of the numbers. Each value bounds the distance of a quoted number from the solution.
+    - ``printed``: a map from names of numbers to error bounds. The table ``[proof.printed]`` quotes these
+      numbers from the publication of the method. The error is the distance from the solution.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -58,8 +58,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns and
-        the error bounds. The entry ``pins`` contains the names of the decimals that are taken as exact
+        """Return the proved statement as a dictionary for JSON. The entries include the conditions, the
+        unknowns and the error bounds. The entry ``pins`` lists the decimals that are taken as exact
         numbers."""
         proof = self.tableau.proof
         assert proof is not None
@@ -78,9 +78,9 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
     decimals of ``tableau``.
 
-    The solution is enclosed to at least ``bits`` binary digits. More digits are used if the decimals of the
-    file require them. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof
-    fails.
+    The proof uses ball arithmetic with at least ``bits`` bits. If the decimals have many digits, the
+    precision is higher. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
+    reason.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))
@@ -110,8 +110,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file from which the tableau was read. None if there is no file, or if the
-        tableau no longer has the [proof] table of the file."""
+        """The content of the file from which the tableau was read. The value is None if the tableau was not
+        read from a file, or if its [proof] table was replaced."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -125,7 +125,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '
-            'put fewer decimals in this list, or remove "~" from the decimals'
+            'remove some names from this list, or, if the decimals are exact, remove "~"'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)

@@ -1,12 +1,11 @@
 """A search for dependent conditions of a sub-family. The sub-family contains the methods whose coefficients
 satisfy the formulas of a tableau file.
 
-Modulo primes, each dependent condition is first written as a polynomial in other conditions. The coefficients
-of the polynomial are then converted to fractions.
+The left-hand side of each dependent condition is a polynomial in left-hand sides of independent conditions.
+The coefficients of this polynomial are computed modulo primes and then converted to fractions.
 
-The results of this module are not proofs, because conditions that are independent over Q can be dependent
-modulo a prime.
-:class:`orderconds.proof.exact_member.ExactMember` verifies each combination in exact arithmetic.
+Conditions that are independent over Q can be dependent modulo a prime. Therefore a polynomial can be wrong.
+:class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -29,12 +28,12 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The number of random methods of the sub-family in the first attempt. If this number is too small to
-distinguish all conditions, another attempt uses more methods."""
+"""The number of random methods of the sub-family in the first attempt. If this number is too small, another
+attempt uses more methods."""
 
 SPARE = 24
-"""At each order, the number of random methods exceeds the number of independent conditions and products of
-conditions by at least this number. The excess makes accidental dependences improbable."""
+"""The least number of surplus random methods. Without a surplus, independent conditions could seem dependent
+by accident."""
 
 PRIME_BITS = 61
 """The size, in bits, of the primes modulo which conditions are evaluated. A residue of this size fits in a
@@ -53,9 +52,12 @@ square root in the tableau file."""
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions (``pivots``) of a sub-family, and the dependent conditions. For each prime
-    in ``primes``, ``residues`` contains the dependent conditions as polynomials in the independent
-    conditions.
+    """The independent and the dependent conditions of a sub-family.
+
+    - ``pivots``: the independent conditions.
+    - ``primes``: several primes.
+    - ``residues``: for each prime, the dependent conditions as polynomials in the independent conditions,
+      modulo this prime.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -63,9 +65,9 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield a pair (condition, combination) for each dependent condition. The combination is a polynomial
-        in the left-hand sides of independent conditions. It is equal to the left-hand side of the dependent
-        condition. The combination is None if more primes are needed to determine its coefficients."""
+        """Yield a pair (condition, combination) for each dependent condition. The combination expresses the
+        left-hand side of the condition as a polynomial in left-hand sides of independent conditions. If more
+        primes are needed to determine the polynomial, the combination is None."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -92,8 +94,9 @@ def dependences(
     """Yield the independent and the dependent conditions of a sub-family. The first result is computed modulo
     one prime, the second result modulo two primes, and so on.
 
-    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. A prime
-    is not used if another prime gives more independent conditions.
+    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. If two
+    primes give different numbers of independent conditions, the result for the smaller number is wrong and
+    is discarded.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -134,9 +137,10 @@ def _modulo(
     """Return two values: the independent conditions modulo one prime, and a map from each dependent condition
     to a polynomial in the independent conditions.
 
-    If the formulas contain a square root sqrt(d), let r be a residue with the square d. The polynomials are
-    computed twice, with the value r and with the value -r of sqrt(d). The two results determine coefficients
-    of the form x + y sqrt(d). Return None if the independent conditions for r and for -r differ.
+    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Modulo the
+    prime, d has two square roots r and -r. The polynomials are computed with r and with -r in place of
+    sqrt(d), and x and y follow from the two results. Return None if the independent conditions for r and for
+    -r differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -184,8 +188,8 @@ def _independent(
 @dataclass(frozen=True)
 class _Value:
     """A monomial and its values modulo a prime. The monomial is the product of the left-hand sides of the
-    conditions in ``factors``. ``members`` contains its values at random methods of the sub-family. ``flow``
-    is its value at the exact flow."""
+    conditions in ``factors``. ``members`` contains the values of this product at random methods of the
+    sub-family. ``flow`` is the product of the right-hand sides."""
 
     factors: Monomial
     members: Sample
@@ -211,9 +215,9 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at ``count`` random methods and at the exact flow. ``root`` is
-        the residue that replaces the only square root in the formulas. If ``root`` is None, random residues
-        replace all roots."""
+        """Return the left-hand sides of the conditions at ``count`` random methods, and the right-hand sides.
+        ``root`` is the residue that replaces the only square root in the formulas. If ``root`` is None,
+        random residues replace all roots."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -227,8 +231,9 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring of samples modulo a prime, in which roots have prescribed or random values. The value of every
-    square root is ``square_root`` if this residue is not None. All other roots have random values."""
+    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. The
+    formulas of a tableau file may contain roots. If ``square_root`` is given, this residue replaces every
+    square root. Random residues replace all other roots."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -236,15 +241,15 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the value that replaces the ``index``-th root of x. For the same x and the same index, the
-        value is always the same."""
+        """Return the residues that replace the root of x with degree ``index``. A second call with the same
+        arguments returns the same residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return a random number that replaces the root with this name. For the same name, the number is
-        always the same."""
+        """Return the random residues that replace the root with this name. A second call with the same name
+        returns the same residues."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

@@ -1,5 +1,5 @@
-"""The equations that the decimals in a tableau file satisfy approximately. The module also determines the
-orders of the exact solution of these equations.
+"""The equations that the decimals in a tableau file satisfy approximately. The exact solution of these
+equations is a method. The module also determines the orders of this method.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
@@ -18,8 +18,8 @@ verified exactly, from the formulas in the file and not from the decimals:
 - ``spelling``: coefficients that are formulas in other coefficients define a sub-family, in which some of the
   conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
-equations of such a scheme also contain the conditions of rooted trees for the second update
+A 2N scheme may contain an embedded method. The update of the embedded method applies one exponential more
+than the update of the scheme. The embedded update must satisfy the conditions of rooted trees, too
 (docs/explanation/two_registers.md).
 """
 
@@ -49,22 +49,27 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the decimals of ``tableau``. ``facts`` contains the orders that every solution of the
-    equations has, as pairs (family, order)."""
+    """The equations that determine the decimals of ``tableau``.
+
+    ``facts`` contains pairs (family, order). Each solution of the equations is a method that has at least
+    this order in this family.
+    """
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s for a Magnus method on s Gauss nodes. Each condition then belongs to a word in the letters
-    1, ..., s. None if the words are not restricted."""
+    """The number s of nodes if the method is a Magnus method on Gauss nodes and its order is at most 2s. Each
+    condition then belongs to a word in the letters 1, ..., s. For other methods, the value is None."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
+    """The order conditions that must be solved if the reduction is ``spelling`` or ``low-storage``. For other
+    reductions, the value is None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a low-storage (2N) scheme. In the list of all equations, they
-    come after the conditions of the method itself."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. The list of all equations begins
+    with the conditions of the method and ends with these conditions."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
+    """The orders of the embedded method, as pairs (family, order). There are no pairs if ``lower`` is
+    empty."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -117,8 +122,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Modulo a prime, an independent condition can seem dependent. A necessary equation would then be missing.
-    # Therefore the dependence of the omitted conditions is verified over the rationals Q.
+    # ``family.conditions`` omits conditions that are dependent modulo primes. A condition that is independent
+    # over the rationals Q could be omitted by mistake. Therefore the dependences are verified over Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -148,7 +153,7 @@ def equations(tableau: Tableau) -> Equations:
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
             raise NotProved(
-                'reduction = "symmetric": it is not proved that the method remains symmetric if its '
+                'reduction = "symmetric": there is no proof that the method remains symmetric if the '
                 "decimals change"
             )
         if proof.order % 2:
@@ -192,9 +197,9 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    The conditions are required only if the update of the embedded method applies all exponentials of the
-    method and then one more, and if the order of the embedded method is at most the order in ``proof``. In
-    all other cases the result is empty.
+    The embedded update must consist of the exponentials of the method and one additional exponential.
+    Otherwise the result is empty. The result is also empty if the order of the embedded method exceeds the
+    order in ``proof``.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
@@ -205,8 +210,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to the order in ``proof`` for all coefficients that
-    satisfy the formulas in the file."""
+    """Return the order conditions that must be solved for the reduction ``spelling``. Together with the
+    formulas in the tableau file, they imply all conditions up to the order in ``proof``."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -221,10 +226,9 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s,
-    else None.
-
-    The result is also None if a node depends on a rounded decimal of the file.
+    """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s.
+    Otherwise, return None. If a node depends on a rounded decimal of the file, return None, because the node
+    is not known exactly.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -240,10 +244,10 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Return True if ``nodes`` are proved to be the Gauss nodes on [0, 1].
+    """Return True if ``nodes`` are proved to be the s Gauss nodes c_1, ..., c_s on [0, 1].
 
-    The nodes are the Gauss nodes if the product of t - c_i over all nodes c_i is orthogonal to all
-    polynomials of lower degree.
+    The function tests that the polynomial (t - c_1) ... (t - c_s) is orthogonal on [0, 1] to all polynomials
+    of degree less than s.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
@@ -274,8 +278,9 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
     ``values`` contains one jet for each equation: the value and the gradient of the equation in ball
-    arithmetic over a box. If all balls of a jet contain zero, the equation may be an identity. The equation
-    is then evaluated exactly, with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
+    arithmetic over a box. An equation can be an identity only if all balls of its jet contain zero. Such an
+    equation is evaluated exactly, with random numbers for the unknowns
+    (:mod:`orderconds.tableau.random_member`).
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -1,9 +1,10 @@
-"""Exact values of the conditions at one random method. The values are used to verify that a condition is a
-polynomial in other conditions.
+"""Exact left-hand sides of order conditions for one random method. They are used to verify that one left-hand
+side is a polynomial in others.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
-a method of this sub-family. The coefficients of a random member (:mod:`orderconds.tableau.random_member`) are
-in Q, or in Q(sqrt(d)) if sqrt(d) is the only radical of the file.
+a method of this sub-family. Random members are constructed in :mod:`orderconds.tableau.random_member`. If the
+only radical in the file is sqrt(d), the coefficients of a random member are in Q(sqrt(d)). Otherwise the
+coefficients are rational.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ class Surd:
     """A square root that is the only radical in the formulas of a tableau file.
 
     - ``radicand``: the rational number under the root.
-    - ``ring``: the field that the root generates.
-    - ``root``: the root as an element of this field.
+    - ``ring``: the field Q(sqrt(d)), where d is the radicand.
+    - ``root``: the element sqrt(d) of this field.
     """
 
     radicand: Fraction
@@ -94,18 +95,18 @@ class ExactMember:
     def holds(self, condition: OrderCondition) -> bool:
         """Return True if a condition holds at this member of the sub-family.
 
-        This member was chosen at random from the sub-family. If some member violates the condition, the
-        probability that a random member satisfies it is negligible (:mod:`orderconds.tableau.random_member`).
+        This member was chosen at random. If the condition holds here, it holds for the whole sub-family with
+        a negligible probability of error (:mod:`orderconds.tableau.random_member`).
         """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Return True if ``condition`` follows from the conditions in ``combination``.
+        """Return True if ``condition`` follows from the conditions in ``combination``. Return False if
+        ``combination`` is None.
 
-        Two equations are tested at this member. The combination of the left-hand sides must equal the
-        left-hand side of ``condition``. The combination of the right-hand sides must equal the right-hand
-        side of ``condition``. If some member violates one of these equations, the probability that a random
-        member satisfies it is negligible. Return False if ``combination`` is None.
+        ``combination`` is a polynomial. Its value at the left-hand sides must equal the left-hand side of
+        ``condition``, and its value at the right-hand sides must equal the right-hand side. The left-hand
+        sides are tested only at this random member. The probability of a wrong result True is negligible.
         """
         if combination is None:
             return False
@@ -127,10 +128,10 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return the left-hand sides of ``conditions`` at a random member of the sub-family that ``symbolic``
-    describes.
+    """Evaluate the left-hand sides of ``conditions`` at a random member of a sub-family. ``symbolic``
+    describes the sub-family.
 
-    Return None if the evaluation fails, because the numbers become too large or a divisor is zero.
+    Return None if the numbers become too large or if a divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -163,8 +164,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Evaluation of formulas in the field that a square root generates. The rounded decimals and named roots
-    in the formulas are replaced by random numbers."""
+    """The field Q(sqrt(d)), in which formulas of a tableau file are evaluated. The rounded decimals and the
+    named roots in the formulas are replaced by random numbers."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd
@@ -185,8 +186,8 @@ class _Scalars:
 
 
 def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
-    """Yield every constant in the formulas of a tableau file. For each named root in the file, yield the
-    coefficients of its minimal polynomial.
+    """Yield every constant in the formulas of a tableau file. If a number of the file is defined as a root of
+    a polynomial, the constants include the coefficients of the polynomial.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'

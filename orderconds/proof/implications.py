@@ -28,8 +28,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the largest lower bound of the order of a tableau in ``family`` that ``facts`` imply. Return 0
-    if they imply no bound.
+    """Return the order in ``family`` that ``facts`` imply. A tableau for which ``facts`` are true has at
+    least this order. If ``facts`` imply no order, return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5

@@ -1,13 +1,13 @@
 """Krawczyk's operator, which proves in ball arithmetic that a square system has exactly one solution in a
 box.
 
-For F: R^n -> R^n, a box X with midpoint x and any matrix Y,
+For F: R^n -> R^n, a box X with midpoint x and any matrix Y, Krawczyk's operator K is
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
 Here I is the identity matrix, and F'(X) encloses the Jacobian matrices of F at all points of X. If K(X) lies
-in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and the Jacobian matrix is
-regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem
+in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and the Jacobian matrix of F
+is regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem
 5.1.8). Repeated application of K encloses the zero to the working precision, with quadratic convergence.
 """
 
@@ -21,8 +21,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables. The arguments are the variables as jets (values with gradients),
-and the ring of jets. The result contains the n functions as jets."""
+"""A system of n functions of n variables. A jet is a value with its gradient. The arguments are n jets for
+the variables and the ring of these jets. The result contains n jets, one for each function."""
 
 MAX_SWEEPS = 40
 
@@ -32,9 +32,9 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls that enclose the only zero of ``system`` in ``box``. The balls are refined in arithmetic
-    with ``bits`` bits. At most :data:`MAX_SWEEPS` iterations are made. The refinement ends earlier if an
-    iteration does not reduce any radius to less than half.
+    """Return balls that enclose the only zero of ``system`` in ``box``. An iteration with a precision of
+    ``bits`` bits reduces the radii of the balls. The iteration ends when no radius decreases by more than
+    half, or after :data:`MAX_SWEEPS` steps.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 
@@ -48,8 +48,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"Krawczyk's operator does not map the box into itself: it maps the interval "
-                    f"{outer.str(12)} of unknown {i + 1} to {inner.str(12)}"
+                    f"Krawczyk's operator does not map the box into itself: for unknown {i + 1}, the box "
+                    f"has the interval {outer.str(12)}, but its image has {inner.str(12)}"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]

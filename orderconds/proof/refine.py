@@ -1,8 +1,8 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
-If there are more decimals than equations, the method computes the decimals that the equations determine best.
-They are selected by Gaussian elimination with complete pivoting, applied to the Jacobian of the equations.
-The remaining decimals are pinned: their digits do not change.
+If there are more decimals than equations, Newton's method changes only some of the decimals. Gaussian
+elimination with complete pivoting, applied to the Jacobian of the equations, selects these decimals. The
+remaining decimals are pinned: their digits do not change.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
     is the text of the file.
 
-    The result contains a new file. In this file, the list ``pins`` contains the names of the decimals that
-    did not change; they are taken as exact numbers. The table ``[proof.printed]`` contains the original
+    The result contains the text of a new file. Decimals that did not change are taken as exact numbers. The
+    list ``pins`` of the new file contains their names. The table ``[proof.printed]`` contains the original
     digits. Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
 
@@ -90,8 +90,8 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     ``jacobian`` contains the derivatives of one equation. Before the elimination, each row is divided by its
     largest entry.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the rows are
-    then almost linearly dependent.
+    A pivot below 1e-8 indicates that the equations are dependent. In this case,
+    :class:`~orderconds.proof.krawczyk.NotProved` is raised.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -206,8 +206,8 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number with this name as text. The value is computed from the decimals in the
-    tableau file, which are taken as exact numbers."""
+    """Return the value of the number ``name`` as text. For this computation, the decimals in the tableau
+    file are taken as exact numbers."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})

@@ -1,9 +1,9 @@
 """The independent conditions of a sub-family of methods. If the table ``[proof]`` of a tableau file contains
-``reduction = "spelling"``, the proof solves only these conditions.
+``reduction = "spelling"``, only these conditions must be solved.
 
 Formulas in the file, such as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family. In the sub-family,
-fewer conditions are independent. A condition is omitted if its value is a polynomial in the values of
-retained conditions. The polynomial must be the same for all methods of the sub-family and for the exact flow.
+fewer conditions are independent. A condition is omitted if its left-hand side is a polynomial in the
+left-hand sides of retained conditions. The same polynomial must relate the right-hand sides.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). This computation is not a
 proof. Therefore each polynomial is verified exactly at one random method of the sub-family
@@ -24,11 +24,12 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to ``order`` for the sub-family of methods that
-    ``symbolic`` describes.
+    """Return the independent conditions of a sub-family. If a method of the sub-family satisfies them, it
+    satisfies all conditions up to ``order``.
 
-    The function ``read(method, ring)`` converts a method with coefficients in ``ring`` to the format of the
-    family. By default the method is not converted.
+    ``symbolic`` describes the sub-family. The function ``read(method, ring)`` converts a method to the format
+    in which ``family`` evaluates its conditions. ``ring`` contains the coefficients of the method. By default
+    the method is not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau
@@ -57,8 +58,8 @@ def independent_conditions(
 
 
 def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
-    """Return one tuple of conditions for each order. For every method of the family, the conditions in all
-    tuples together imply all conditions up to ``order``.
+    """Return one tuple of conditions for each order. If a method of the family satisfies these conditions, it
+    satisfies all conditions up to ``order``.
 
     >>> from orderconds import families
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]
