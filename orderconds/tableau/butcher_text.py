@@ -8,19 +8,20 @@ from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau.record import Tableau
 
 SHORT = Balls(64)
-"""Ring of balls with 64 bits, in which decimals are rounded for printing."""
+"""A ring of balls with 64 bits. Coefficients are rounded in this ring before they are printed."""
 
 DIGITS = 24
-"""An approximate upper bound of the number of characters in a printed decimal."""
+"""The largest length of a decimal that is printed unchanged. A longer decimal is shortened."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:
-    """Return the lines of the Butcher tableau. Decimals have about twenty digits and end with "~".
+    """Return the lines of the Butcher tableau. Rounded coefficients are printed as decimals that end with "~"
+    and have about twenty digits. Embedded weights are not printed.
 
-    For a composition method, the result is the tableau of a composition of implicit midpoint rules. For a
-    commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
-    spaces. Embedded weights are not printed. Raises :class:`orderconds.errors.TableauError` for splitting
-    methods and Magnus methods.
+    For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
+    spaces. In the tableau of a composition method, the basic method is the implicit midpoint rule. In a
+    composition of a method and its adjoint, the two methods are the explicit and the implicit Euler method.
+    Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 
     >>> from orderconds.tableau import find
     >>> print("\\n".join(butcher_text(Tableau.load(find("gauss2")))))
@@ -45,7 +46,8 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
 
 def entry(tableau: Tableau, x: Element) -> str:
-    """Return a coefficient as text: an exact coefficient in full, and a ball as a decimal that ends with "~".
+    """Return the text of a coefficient. Exact coefficients are written in full. The result for a ball (an
+    interval) is a decimal that ends with "~".
 
     >>> from orderconds.tableau import find
     >>> yoshida = Tableau.load(find("yoshida6"))
@@ -57,6 +59,6 @@ def entry(tableau: Tableau, x: Element) -> str:
     text = SHORT.text(SHORT.enclose(x.value) + 0)
     if len(text) <= DIGITS:
         return text
-    # If a sum of rounded numbers is near zero, its decimal has many leading zeros. The format ``g`` prints
-    # an exponent instead of the zeros.
+    # The decimal of a number near zero has many leading zeros. The format ``g`` prints an exponent instead of
+    # these zeros.
     return f"{Decimal(text.rstrip('~')):.{DIGITS - 2}g}~"

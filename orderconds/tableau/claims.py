@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that a method has order ``order``, and not a higher order, in ``family``. The
-    family truncates a series, such as the series of dexpinv, after the power ``cutoff``. ``cutoff`` is None
-    if the family has no such option."""
+    """The claim that a method in the family ``family`` has exactly the order ``order``. Some families of
+    methods truncate a series, such as the series of dexpinv, after the power ``cutoff``. For all other
+    families, ``cutoff`` is None."""
 
     family: str
     cutoff: int | None
@@ -17,7 +17,7 @@ class OrderClaim:
 
     @property
     def label(self) -> str:
-        """The label of the family in reports, such as ``vcg``, or ``rkmk(1)`` with the cutoff 1."""
+        """The label of the family in reports. For example, ``rkmk(1)`` denotes ``rkmk`` with cutoff 1."""
         return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
 
 
@@ -30,8 +30,8 @@ class Claims:
     properties: dict[str, bool] = field(default_factory=dict)
 
     def order(self, family: str, cutoff: int | None = None) -> int | None:
-        """Return the claimed order in a family, or None if the file claims no order in this family. The
-        family ``rkmk(1)`` has ``cutoff`` 1."""
+        """Return the claimed order in a family, or None if the file claims no order in this family. For
+        ``rkmk(1)``, the family is ``rkmk`` and the cutoff is 1."""
         for claim in self.orders:
             if (claim.family, claim.cutoff) == (family, cutoff):
                 return claim.order

@@ -1,21 +1,24 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
-The nodes c are the roots of the s-th Legendre polynomial or of a related polynomial. The weights b integrate
-polynomials of degree below s exactly. The matrix A follows from one of the rules in the table below. The
-first column of the table contains the name of a rule, and the second column contains its definition. Here l_j
-are the Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's simplifying assumptions.
+Let s be the number of stages. The nodes c_1, ..., c_s are the roots of the s-th Legendre polynomial or of a
+related polynomial. The weights b_1, ..., b_s integrate polynomials of degree below s exactly. Let l_j be the
+Lagrange polynomial of the node c_j. The matrix A follows from one of these rules:
 
-==================  ======================================================================================
-rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
-columns             D(s): a_ij is b_j / b_i times the integral of l_i from c_j to 1
-first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher's Lobatto III)
-mean                the mean of two of these matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
-==================  ======================================================================================
+============  ============================================================================================
+rows          a_ij is the integral of l_j from 0 to c_i (Gauss, Radau IIA, Lobatto IIIA)
+columns       a_ij is b_j / b_i times the integral of l_i from c_j to 1 (Radau IA, Lobatto IIIB)
+first column  A satisfies the assumption C(s - 1), and a_i1 = b_1 for all i (Lobatto IIIC)
+last column   A satisfies the assumption C(s - 1), and a_is = 0 for all i (Lobatto IIIC*)
+mean          A is the mean of two matrices: IIIC and IIIC* for Lobatto IIID, IIIA and IIIB for Lobatto IIIE
+============  ============================================================================================
 
-Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights are those of
-the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the middle node.
-For an even number of nodes, the first of the two middle nodes is omitted. On stiff equations, these error
-estimates can permit steps that are much longer than the fast time scales.
+Here C(s - 1) is Butcher's simplifying assumption: row i of A integrates polynomials of degree below s - 1
+from 0 to c_i exactly. Lobatto IIIC* is also known as Butcher's Lobatto III.
+
+Radau IIA and Lobatto IIIA have an embedded method for step-size control. The weights of the embedded method
+belong to the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the
+middle node. For an even number of nodes, the first of the two middle nodes is omitted. On a stiff equation,
+the step-size control can choose steps that are much longer than the fast time scales of the equation.
 
 The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
@@ -44,12 +47,11 @@ Matrix = list[list[Algebraic]]
 
 
 class Nodes:
-    """The nodes c in ascending order, as elements of one number field, with their weights and Lagrange
-    polynomials.
+    """The nodes, weights and Lagrange polynomials of a quadrature. All numbers are elements of one number
+    field. The nodes are in ascending order.
 
-    ``s`` is the number of nodes. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. In
-    formulas, true counts as 1 and false as 0. The nodes are the roots of the derivative of order ``s - left -
-    right`` of the polynomial ``x^(s - right) (x - 1)^(s - left)``.
+    ``s`` is the number of nodes. ``left`` is true if 0 is a node, and ``right`` is true if 1 is a node. The
+    function :func:`nodal_polynomial` returns the polynomial whose roots are the nodes.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -87,11 +89,12 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on all nodes except one. ``left_out`` is the index of the
-        omitted node (counted from 0), whose weight is zero.
+        """Return the weights of the quadrature on all nodes except the node with the index ``left_out``,
+        counted from 0. The weight of the omitted node is zero.
 
-        The returned weights are b - (b_k / e_k) e, where k is the index of the omitted node, and e_j is the
-        leading coefficient of the Lagrange polynomial l_j.
+        Let k be the index of the omitted node. Let b_j be the weight of node j in the quadrature on all
+        nodes. Let e_j be the leading coefficient of the Lagrange polynomial of node j. The returned weight of
+        node j is ``b_j - (b_k / e_k) e_j``.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -101,20 +104,22 @@ class Nodes:
         return [x - share * y for x, y in zip(self.b, leading, strict=True)]
 
     def rows(self) -> Matrix:
-        """Return the matrix A that satisfies the simplifying assumption C(s)."""
+        """Return the matrix A of a collocation method: a_ij is the integral of the Lagrange polynomial of
+        node j from 0 to node i."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
 
     def columns(self) -> Matrix:
-        """Return the matrix A that satisfies the simplifying assumption D(s)."""
+        """Return the matrix A of Radau IA and Lobatto IIIB: a_ij is b_j / b_i times the integral of the
+        Lagrange polynomial of node i from node j to 1."""
         b, stages = self.b, range(self.s)
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
-        """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
-        column k are equal to ``value``.
+        """Return a matrix A in which all entries of column k are equal to ``value``. Row i of A integrates
+        polynomials of degree below s - 1 from 0 to node i exactly, where s is the number of nodes.
 
-        Let R be the matrix that satisfies C(s), and let e_j be the leading coefficient of the Lagrange
-        polynomial l_j. Row i of A is row i of R plus a multiple of the vector e.
+        Let e_j be the leading coefficient of the Lagrange polynomial of node j. Row i of A is the sum of row
+        i of the matrix :meth:`rows` and a multiple of the vector (e_1, ..., e_s).
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -150,7 +155,8 @@ def middle(s: int) -> int:
 
 
 def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
-    """Return a rule for A: the mean of the matrices of two other rules.
+    """Return a function that computes a matrix A from the nodes. The matrix is the mean of the matrices that
+    the functions ``one`` and ``other`` compute.
 
     >>> rule = mean(Nodes.first_column, Nodes.last_column)
     >>> rule(Nodes(2, True, True))[0]
@@ -238,7 +244,8 @@ def construct(kind: str, stages: int) -> Tableau:
 
 
 def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
-    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula.
+    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula. The polynomial is a
+    derivative of ``x^(s - right) (x - 1)^(s - left)``, in which True counts as 1 and False as 0.
 
     >>> nodal_polynomial(2, False, False)
     12*x^2 + (-12)*x + 2
@@ -251,12 +258,11 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial that has only real roots. If possible, express the roots by square
-    roots.
+    """Return the roots of a polynomial that has only real roots. Where possible, the roots are expressed by
+    square roots.
 
-    Roots that cannot be expressed by square roots get the names c1, c2, ... in ascending order within each
-    irreducible factor. The last root of a factor gets no name, because this root follows from the sum of the
-    roots.
+    Where this is not possible, the roots of an irreducible polynomial get the names c1, c2, ... in ascending
+    order. The largest root gets no name, because it is computed from the sum of all roots of this polynomial.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

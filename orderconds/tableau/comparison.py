@@ -1,4 +1,4 @@
-"""Comparison of the coefficients of two tableaux. Rounded decimals are compared up to their uncertainty."""
+"""Comparison of the coefficients of two tableaux. Rounded decimals are compared as intervals."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ COMPARED = 160
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
-    """Return True if the coefficients of two tableaux are equal, including embedded methods.
+    """Return True if two tableaux have equal coefficients. The coefficients of embedded methods are compared,
+    too.
 
-    Two balls (intervals) count as equal if they intersect and neither is much wider than the other. Exact
-    equality is not required, because writing a ball to a file may round the centre and the radius.
+    Two balls (intervals) count as equal if they intersect and have similar widths. The balls need not be
+    identical, because the centre and the radius of a ball may be rounded when the ball is written to a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -46,7 +47,8 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Return True if two enclosures intersect, and neither is much wider than the other."""
+    """Return True if two intervals intersect and have similar widths. A factor of 4 between the widths is
+    allowed."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

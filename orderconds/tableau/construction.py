@@ -12,16 +12,16 @@ from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
-"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``). A
-single integer is the order in one family, which has the same name as the tableau format, such as ``rk``."""
+"""Claims in Python. A mapping contains claimed orders and properties, as in ``{"rk": 4, "explicit": True}``.
+For a tableau of the format ``rk``, the integer 4 means the same as ``{"rk": 4}``. None means no claims."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
-    """Return the keys of a Butcher tableau: A, the weights b, and optionally abscissae c and embedded
-    weights.
+    """Return the keys of a Butcher tableau with the matrix A, the weights b, the abscissae c and the embedded
+    weights ``bhat``.
 
-    Let s be the number of stages. Each row has s entries. If A is strictly lower triangular, its rows may
-    have 0, 1, ..., s - 1 entries. If A is lower triangular, its rows may have 1, 2, ..., s entries.
+    The zeros above the diagonal of A may be omitted in all rows. If A is strictly lower triangular, the zeros
+    on the diagonal may also be omitted.
 
     Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not match.
 
@@ -45,8 +45,9 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError if the rows of A have wrong lengths. The rows must have s, ..., s entries, or
-    0, 1, ..., s - 1 entries, or 1, 2, ..., s entries, where s is the number of stages.
+    """Raise TableauError if the rows of A have wrong lengths. Let s be the number of stages. Three shapes are
+    allowed: all rows have s entries, or row i has i entries, or row i has i - 1 entries. Rows are counted
+    from 1.
     """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
@@ -76,8 +77,8 @@ def commutator_free(
     ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials. The
     first exponential of a list acts first. An exponential is a row of coefficients, one for each stage. Zeros
     at the end of a row may be omitted. By default, the exponentials of a stage act on y0. If the exponentials
-    of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from 1. ``embedded`` is a
-    second update.
+    of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from 1. ``embedded`` is
+    the update of the embedded method.
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):

@@ -1,10 +1,10 @@
 """Coefficients that are given as binary floating-point numbers (doubles).
 
-A double is usually a rounded coefficient, such as 0.3333333333333333 for 1/3. In a tableau file, such a
-coefficient ends with ``d``, as in ``0.3333333333333333d``. This text denotes a ball: an interval around the
-double x. The radius of the ball is ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at
-most ``2^-53 |x|``. The radius is larger than ``2^-53 |x|``, because many coefficients are computed with a few
-roundings.
+A double is usually a rounded coefficient, such as 0.3333333333333333 for 1/3. In a tableau file, the letter
+``d`` marks a double, as in ``0.3333333333333333d``. The coefficient is then a ball: an interval around the
+double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most
+``2^-53 |x|``. The factor ``UNITS`` allows for several roundings, because many coefficients are results of a
+computation.
 
 A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number.
 """
@@ -19,24 +19,25 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""A double x represents a ball (interval) around x. This number is the default radius of the ball, in units
-of 2^-53 max(1, |x|)."""
+"""A factor in the radius of a ball. A double x denotes a ball (an interval) around x. By default, the radius
+of the ball is ``UNITS * 2^-53 * max(1, |x|)``."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
 
 SHORT = 26
-"""A double with at most this number of significant bits counts as an exact number."""
+"""The largest number of significant bits of a double that counts as an exact number. A double with more bits
+is probably a rounded number."""
 
 PRINTED = 16
-"""A decimal from another program is not treated as a double if it has fewer digits than this number."""
+"""The least number of digits of a printed double. A decimal with fewer digits is not treated as a double."""
 
 LARGE = 64
-"""A double counts as an exact number only if its numerator and denominator have at most this number of bits.
-With more bits, the exact decimal would be too long."""
+"""The largest number of bits in the numerator and the denominator of a double that counts as an exact number.
+With more bits, the exact decimal of the double would be too long."""
 
 LONGEST = 1200
-"""An upper bound of the number of significant decimal digits of a double."""
+"""An upper bound. No double has more significant decimal digits than this number."""
 
 _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
@@ -54,7 +55,7 @@ def double_text(x: float, where: str = "") -> str:
     """Return a double as the text of a coefficient. A double that counts as an exact number
     (:func:`is_short`) is written without suffix. Every other double is written with the suffix ``d``.
 
-    Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, if x is not finite.
+    Raises :class:`~orderconds.errors.TableauError` if x is not finite. The error message contains ``where``.
 
     >>> [double_text(x) for x in (0.5, -3.0, 0.0, 1 / 3, 0.1, 1e-05)]
     ['0.5', '-3', '0', '0.3333333333333333d', '0.1d', '0.00001d']
@@ -67,7 +68,7 @@ def double_text(x: float, where: str = "") -> str:
 
 
 def is_double(text: str | int) -> bool:
-    """Return True if a coefficient is a decimal with the suffix ``d``, which denotes a double.
+    """Return True if a coefficient is the text of a double: a decimal that ends with the letter ``d``.
 
     >>> is_double("-0.1d"), is_double("1/3"), is_double(1)
     (True, False, False)
@@ -77,7 +78,7 @@ def is_double(text: str | int) -> bool:
 
 def decimal_text(text: str) -> str:
     """Convert the text of a double, such as ``0.1d``, to a decimal without suffix and exponent. The decimal
-    has at least :data:`PRINTED` digits, and other programs read it as the same double.
+    has at least :data:`PRINTED` digits. A program that reads the decimal obtains the same double.
 
     >>> decimal_text("-0.3333333333333333d"), decimal_text("0.1d")
     ('-0.3333333333333333', '0.10000000000000001')
@@ -87,7 +88,7 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Return True if a double needs so few bits that it counts as an exact number.
+    """Return True if a double counts as an exact number. The limits are :data:`SHORT` and :data:`LARGE`.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)
@@ -116,12 +117,14 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal without exponent was probably printed from a double.
+    """Return True if a decimal was probably printed from a double. The decimal must not have an exponent.
+    Zeros at the beginning of the decimal do not count as digits.
 
     - Fewer than 16 digits: the result is False.
     - 16 or 17 digits: the result is True.
-    - More digits: the result is True if the nearest double, rounded to the same number of digits, equals the
-      decimal.
+    - From 18 to 1200 digits: the result is True if the nearest double has the same digits. For this test, the
+      double is printed with the same number of digits as the decimal.
+    - More than 1200 digits: the result is False.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

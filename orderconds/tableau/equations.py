@@ -1,9 +1,10 @@
 r"""Equations in LaTeX that define a method. The equations are printed if the method has no Butcher array, or
 if the array is too wide.
 
-Each equation is broken into lines that fit in a column of a two-column article. A coefficient is printed
-exactly if its text is short and contains no name. Other coefficients are printed as truncated decimals that
-end in ``\ldots``. Doubles are printed with six digits.
+Each equation is broken into lines that fit in a column of a two-column article. If the tableau contains
+doubles, all coefficients are printed with six digits. In every other tableau, short coefficients are printed
+exactly. Long coefficients, and coefficients with names such as c1, are printed as truncated decimals that end
+in ``\ldots``.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ SHORT = 10
 """Decimals of inexact coefficients are truncated after this number of digits."""
 
 WIDE = 75.0
-"""A coefficient is printed exactly only if its LaTeX formula has at most this width in points. Otherwise, it
-is printed as a decimal."""
+"""The largest width, in points, of the LaTeX formula of a coefficient. A coefficient with a wider formula is
+printed as a decimal."""
 
 MOST = 34
 """The largest number of lines that fit on a page."""
@@ -53,9 +54,9 @@ part."""
 def equations(tableau: Tableau) -> str:
     r"""Return the equations that define the method, aligned at the equality signs.
 
-    If the equations do not fit on a page, only a number is printed. For a Magnus method, it is the number
-    of nodes. For compositions and splittings, it is the number of coefficients. For all other methods, it is
-    the number of stages.
+    If the equations do not fit on a page, the result contains only the size of the method. The size of a
+    Magnus method is the number of nodes. The size of a composition or a splitting is the number of
+    coefficients. The size of every other method is the number of stages, as in ``8 stages``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
@@ -80,8 +81,8 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. The long
-    decimal of a ball is truncated after :data:`SHORT` digits.
+    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. In every
+    other tableau, a long rounded decimal is truncated after :data:`SHORT` digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -95,14 +96,14 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return a coefficient as a decimal with :data:`SHORT` digits and a tilde. Further digits are truncated,
-    not rounded."""
+    """Return a coefficient as a decimal that ends with a tilde. The decimal is truncated after :data:`SHORT`
+    digits."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
 
 def _latex(x: Element, tableau: Tableau) -> str:
-    r"""Return a coefficient in LaTeX. Fractions are printed small (``\tfrac``)."""
+    r"""Return a coefficient in LaTeX. Fractions are written with the command ``\tfrac``."""
     text = short_text(x, tableau)
     if tableau.doubles:
         return text
@@ -197,17 +198,16 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the formula for a stage as a list of parts. A line break is allowed between two parts. The
-    formula is a product of exponentials, applied to y_0 or to an earlier stage. The rightmost exponential
-    acts first."""
+    """Return the formula of a stage, a product of exponentials that acts on y_0 or on an earlier stage. The
+    rightmost exponential acts first. The formula is split where a line break is allowed."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the formula exp(h sum_j x_j k_j) as a list of parts. A line break is allowed between two parts.
-    The coefficients x_j are the entries of ``row``. A sum of one term is printed without brackets."""
+    """Return the formula of one exponential. The exponent is h times a linear combination of k_1, k_2, ...,
+    with the entries of ``row`` as coefficients. The formula is split where a line break is allowed."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")

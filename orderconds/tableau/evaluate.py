@@ -1,8 +1,9 @@
 """Evaluation of the coefficients of a tableau file in one ring: Q, a number field, or balls (intervals).
 
-The coefficients determine the ring. If all coefficients are rational, the ring is Q. Radicals and named roots
-generate a number field, of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If this degree would be
-larger, or if a coefficient is a rounded decimal (``~``) or a double (``d``), all coefficients become balls.
+The coefficients determine the ring. If all coefficients are rational, the ring is Q. If radicals or named
+roots occur, the ring is the number field that they generate. All coefficients become balls in two cases: a
+coefficient is a rounded decimal (``~``) or a double (``d``), or the degree of the number field exceeds
+:data:`orderconds.ring.tower.MAX_DEGREE`.
 Equal expressions in one file denote the same number, and are represented by the same object.
 """
 
@@ -23,9 +24,9 @@ MAX_SIZE = 40_000
 
 
 class NamedRoot(Struct, frozen=True):
-    """A real root of a polynomial over Q. ``minpoly`` contains the ascending coefficients of the polynomial.
-    The decimal ``near`` identifies the root. Exactly one root lies within one unit of the last digit of this
-    decimal."""
+    """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
+    power first. The decimal ``near`` is an approximation of the root, with an error of at most one unit in
+    the last digit. No other root may be this close to the decimal."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -35,7 +36,8 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """A ring in which expressions are evaluated: balls, or a number field that grows with each new root."""
+    """A ring in which expressions are evaluated: the ring of balls, or a number field. The number field is
+    extended when an expression contains a new root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return the rational number ``value`` if its uncertainty ``unit`` is zero. Otherwise, return the
@@ -46,8 +48,8 @@ class Scalars(Protocol):
         even root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
-        ValueError if there is no such root, or more than one."""
+        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
+        ValueError if the number of these roots is not 1."""
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest integer in the representation of x."""
@@ -56,8 +58,9 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return the smallest suitable ring, and the values of ``expressions`` in this ring. An expression and
-    its value have the same key: a position in the tableau file, such as ``A[2][1]``.
+    """Return a ring and the values of ``expressions`` in this ring. The ring is Q if possible, otherwise a
+    number field, and the ring of balls if neither is possible. An expression and its value have the same key:
+    the position of the coefficient in the tableau file, such as ``A[2][1]``.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
@@ -76,8 +79,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers only after the ring is fixed, because unused numbers must not enlarge
-            # the ring.
+            # Evaluate unused numbers only now, because an unused number must not change the ring of the
+            # coefficients.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -107,15 +110,15 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values by ``lift`` to elements of one field. Each object is converted only once, so that
-    equal expressions are still represented by the same object."""
+    """Convert the values to elements of one field by the function ``lift``. If two keys have the same object
+    as value, their new values are also one object."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant in an expression. The attribute ``unit`` of a constant is its uncertainty. It is
-    positive for a rounded decimal or a double, and zero for an exact number.
+    """Yield every constant in an expression. The attribute ``unit`` of a constant is the uncertainty. The
+    uncertainty of an exact number is zero. Rounded decimals and doubles have a positive uncertainty.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -154,7 +157,7 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate all named numbers, to report errors also in numbers that no coefficient uses."""
+        """Evaluate all named numbers, so that an error in an unused number is reported, too."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))
@@ -211,7 +214,9 @@ class _Evaluation:
     def named(self, name: str) -> Element:
         if name not in self.numbers:
             defined = ", ".join(self.numbers) or "none"
-            raise self.error(f"the name {name!r}", f"a number, or a name defined under numbers ({defined})")
+            raise self.error(
+                f"the name {name!r}", f"a number, or a name from the table [numbers] ({defined})"
+            )
         if name in self.open:
             raise self.error(f"circular definitions: {' -> '.join([*self.open, name])}", "no cycle")
         if len(self.open) >= MAX_DEPTH:

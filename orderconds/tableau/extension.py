@@ -1,13 +1,15 @@
-"""Continuous extensions (dense output): weights b_i(theta) for the solution at time t_0 + theta h, inside a
+"""Continuous extensions (dense output). An extension gives the solution at every time t_0 + theta h inside a
 step from t_0 to t_0 + h.
 
-The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
-b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q if each tree t
-with at most q nodes satisfies this condition: the elementary weight of t with the weights b_i(theta) is
-theta^|t| / gamma(t) (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6).
-The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same weights for the Lie algebra elements
-k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0. Here the dot denotes the action
-of the Lie group on a point.
+The extension of a Runge-Kutta method replaces the weights b_i of the stages by polynomials b_i(theta). Its
+order is q if every rooted tree t with at most q nodes satisfies one condition. Let n be the number of nodes
+of t, and gamma(t) the density of t. The condition is: the elementary weight of t, computed with the weights
+b_i(theta), equals ``theta^n / gamma(t)`` (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
+I, section II.6).
+
+The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same polynomials. Stage i of the method has
+the Lie algebra element k_i. The exponential of ``h sum_i b_i(theta) k_i`` acts on y_0, and the result is the
+solution at the time t_0 + theta h.
 """
 
 from __future__ import annotations
@@ -20,8 +22,9 @@ from orderconds.tableau.methods import Row
 
 @dataclass(frozen=True)
 class Extension:
-    """The polynomials b_i(theta). Row i contains the coefficients of theta, theta^2, .... All rows have the
-    same length. ``order`` is the claimed order.
+    """The weights of a continuous extension. The weight of stage i is a polynomial in theta. Row i contains
+    the coefficients of theta, theta^2, ... in this polynomial. All rows have the same length. ``order`` is
+    the claimed order.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)
     (-1, 1)
@@ -32,18 +35,18 @@ class Extension:
 
     @property
     def degree(self) -> int:
-        """The degree of the polynomials b_i(theta)."""
+        """The degree of the weights as polynomials in theta."""
         return len(self.rows[0])
 
     def power(self, p: int) -> Row:
-        """Return the coefficients of theta^p in the polynomials, one for each stage."""
+        """Return the coefficient of theta^p in the weight of each stage."""
         return tuple(row[p - 1] for row in self.rows)
 
     def at_end(self) -> Row:
-        """Return the weights b_i(1)."""
+        """Return the weights at the end of the step, where theta is 1."""
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return the number ``sum_p factors[p - 1] beta_ip`` for each stage i. Here beta_ip is the
-        coefficient of theta^p in b_i(theta)."""
+        """Return one number for each stage. The number is the scalar product of ``factors`` and the
+        coefficients of the weight of this stage."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

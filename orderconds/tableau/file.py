@@ -103,8 +103,9 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file contains one of the keys :data:`KEYS` of tableau files. The result is also
-    True for an unreadable file or invalid TOML, because a later attempt to read the file reports the error.
+    """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. The result is also
+    True if the file cannot be read or is not valid TOML. The caller then does not skip the file, but reads it
+    as a tableau file and reports the error.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -171,8 +172,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
     """Return the keys and values of a file as an object. The key ``family`` names the format of the tableau,
-    and the format determines the class of the object. Raises TableauError if there is no such format, or if
-    the keys or types do not fit the format."""
+    and the format determines the class of the object. Raises TableauError if the format is unknown. Raises
+    TableauError, too, if a key or a type does not fit the format."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -187,7 +188,8 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table separately, so that an error message can name the entry."""
+    """Convert the entries of a table one by one. An error message then contains the name of the wrong
+    entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -198,8 +200,8 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Convert an error message of msgspec into a message with the position in the file, the wrong value and
-    the expected value."""
+    """Convert an error message of the library msgspec to an error of this package. The new message contains
+    the position of the error in the file."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
@@ -288,8 +290,8 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Parse a rational number: a coefficient of a minimal polynomial, or a decimal from the publication of
-    the method. Raises TableauError if the number is not rational."""
+    """Return a coefficient as a fraction. Raises TableauError if the coefficient is not an exact rational
+    number."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -306,7 +308,7 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Parse the decimal ``near`` of a named root. The uncertainty of the result is one unit of the last
+    """Return the decimal ``text`` as a constant. The uncertainty of the constant is one unit of the last
     digit."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
