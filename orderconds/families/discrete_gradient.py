@@ -60,6 +60,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. The work of other methods is counted in evaluations of the vector field. A discrete
-        gradient method evaluates only the energy and its differential."""
+        """Return None, because a step has no field evaluations. It evaluates the energy and the differential
+        of the energy instead."""
         return None
