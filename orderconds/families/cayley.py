@@ -4,10 +4,12 @@ The step is Y_1 = cay(Omega) Y_0, where cay(x) = (1 - x/2)^-1 (1 + x/2).
 
 Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i = h
 A(c_i h), and c_i are the nodes. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
-defines the quadratic group. In Omega, the coefficients of a word of length n and of its reverse differ by the
-factor (-1)^(n+1). There is therefore one condition for each pair (word, reverse word), and one for each
-palindrome of odd length (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput.
-Math. 8 (1998) 317).
+defines the quadratic group.
+
+A word denotes a product. If a word of length n is reversed, its coefficient in Omega is multiplied by
+(-1)^(n+1). The conditions of a word and of its reverse are therefore equivalent, and one of them is kept. A
+palindrome of even length has the coefficient zero and no condition (Iserles, Found. Comput. Math. 1 (2001)
+129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -33,8 +35,7 @@ if TYPE_CHECKING:
 @register
 class CayleyFamily(MagnusFamily):
     """Cayley methods: a step is a Cayley transform cay(Omega) or a product of Cayley transforms. In printed
-    conditions, omega_{ij...} is a coefficient of Omega. It belongs to the product in which A_i acts first,
-    then A_j, and so on.
+    conditions, omega_{ij...} is the coefficient of the product ... A_j A_i in Omega.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -52,9 +53,10 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of the given weight whose conditions are independent.
+        """Return the words of weight ``order`` whose conditions are independent.
 
-        The result contains one word of each pair (word, reverse word), and all palindromes of odd length.
+        If a word differs from its reverse, the result contains one of the two words. If a word is a
+        palindrome, the result contains it only for odd length.
         """
         return tuple(
             word
@@ -67,7 +69,10 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of a word in Omega by the coefficient of a word in :meth:`independent`."""
+        """Return the coefficient of a word in Omega as a multiple of the coefficient of an independent word.
+
+        The method :meth:`independent` returns the independent words.
+        """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}

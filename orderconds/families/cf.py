@@ -1,11 +1,13 @@
 """Commutator-free methods: each stage and the update are products of exponentials.
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
-exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
-first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). A stage may start from the value of an earlier stage instead of y0. In this case, the exponentials of
-the earlier stage act first. In printed conditions, b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i =
-sum_j a_ij.
+exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
+first. Stage i has the same form. Its exponential with index J has the coefficients alpha_iJj instead of
+beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage may start from the value of an earlier
+stage instead of y0.
+
+Printed conditions also contain sums over all exponentials: b_j = sum_J beta_Jj and a_ij = sum_J alpha_iJj.
+The abscissae are c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -43,13 +45,13 @@ EXPONENTIAL_SYMBOLS = {
     "b": r"$b_j = \sum_I \beta_{Ij}$",
     "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
 }
-"""Maps the names of coefficients of methods with several exponentials to definitions in LaTeX."""
+"""Definitions, in LaTeX, of the coefficients in printed conditions. The keys are the names."""
 
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is also accepted and defines a Crouch-Grossman method,
-    in which each exponent is a multiple of one stage value k_j.
+    """Commutator-free methods. A Runge-Kutta tableau is accepted, too. It is read as a Crouch-Grossman
+    method, that is, each exponent is a multiple of one stage value k_j.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -70,7 +72,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
-        """Return the Lie-Butcher series of one step of a commutator-free method or of a tableau (A, b)."""
+        """Return the Lie-Butcher series of one step. A tableau (A, b) is read as a Crouch-Grossman method."""
         if isinstance(method, RungeKutta):
             return crouch_grossman_series(method, ring)
         *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
@@ -84,15 +86,14 @@ class CommutatorFreeFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a commutator-free method, else None.
 
-        The file of such a method should state the order of the method in this family. The file of a tableau
-        (A, b) should state the order in ``cg`` instead.
+        The file of a commutator-free method should state the order in this family. The file of a tableau
+        (A, b) should state the order in the family ``cg`` instead.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric.
-
-        The function verifies a sufficient condition (:mod:`orderconds.tableau.palindromes`).
+        """Return True if a commutator-free method satisfies the sufficient condition for symmetry in
+        :mod:`orderconds.tableau.palindromes`.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
@@ -102,10 +103,11 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return one sequence of exponents for each stage, and a last sequence for the update.
+    """Return a list with the exponents of all stages and of the update.
 
-    A sequence contains the exponents of all exponentials that are applied to y0, in the order of application.
-    An exponent is represented by a tuple with one coefficient for each stage value k_j.
+    The list has one item for each stage, and one item for the update at its end. An item contains the
+    exponents of all exponentials that are applied to y0, in the order of application. An exponent is a tuple
+    with one coefficient for each stage value k_j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
@@ -120,9 +122,9 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Map the names of the coefficients in printed conditions to arrays.
+    """Return the arrays of all coefficients in printed conditions, by name.
 
-    The arrays are alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij over j.
+    The names are alpha, beta, a, b and c. The module docstring defines the coefficients.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -154,15 +156,15 @@ def _word(
 ) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The exponent with index J is the sum of ``row(J, j)`` k_j over j, where k_j is the value of the vector
-    field at stage j. The sum of ``row(J, j)`` over J is ``row_total(j)``. ``row_sum`` is a short formula for
-    the sum of ``row_total(j)`` over j, such as c_i, or None if there is no such formula.
+    The function ``row(J, j)`` returns the coefficient of the stage value k_j in the exponent with index J.
+    The function ``row_total(j)`` returns the sum of these coefficients over J. If ``row_sum`` is not None, it
+    is a short formula for the sum of ``row_total(j)`` over j, such as c_i.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # All letters are equal here. Exponentials of multiples of one letter commute, so the result
-        # depends only on the sum of the letter's coefficients in all exponents.
+        # All letters of the word are equal. Exponentials of multiples of one letter commute, so their
+        # product is the exponential of the sum of the exponents.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

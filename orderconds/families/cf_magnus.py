@@ -1,9 +1,12 @@
 """Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
 
 The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i). Here A_i = h A(c_i h), and
-c_i are the nodes. Each condition belongs to a word. Let A(t) = X_1 + t X_2 + .... Letter k of a word denotes
-X_k and has weight k. In the exact flow, the coefficient of a word is an iterated integral (Blanes and Moan,
-Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+c_i are the nodes.
+
+Each condition belongs to a word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + ..., and it has
+the weight k. The condition states that the word has the same coefficient in the step and in the exact flow.
+In the exact flow, this coefficient is an iterated integral (Blanes and Moan, Appl. Numer. Math. 56 (2006)
+1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -74,7 +77,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have the total weight ``order``."""
+        """Return all words of weight ``order``. The weight of a word is the sum of its letters."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -82,14 +85,13 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which both sides of the condition of a word are multiplied: the factorial of
-        its length."""
+        """Return n!, where n is the length of the word. Both sides of the condition are multiplied by n!."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as an index sum.
 
-        Indices I, J, ... run over exponentials, and i, j, ... over nodes.
+        The indices I, J, ... are indices of exponentials. The indices i, j, ... are indices of nodes.
         """
         return composition_formula(word, _exponential, "J")
 

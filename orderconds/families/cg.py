@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-Here k_j is the value of the vector field at stage j. In stage i, a_ij replaces b_j. The exponential of k_1
-acts first.
+Here k_j is the value of the vector field at stage j. The exponential of k_1 acts first. Stage i has the same
+form, with the coefficients a_ij instead of b_j.
 """
 
 from __future__ import annotations
@@ -58,14 +58,13 @@ class CrouchGrossmanFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau (A, b), else None.
 
-        The file of such a tableau should state the order of the method in this family.
+        The file of a tableau (A, b) should state the order of its Crouch-Grossman method.
         """
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric.
-
-        The function :func:`symmetric_crouch_grossman` verifies a sufficient condition.
+        """Return True if the sufficient condition for symmetry in :func:`symmetric_crouch_grossman` is
+        satisfied.
         """
         return symmetric_crouch_grossman(method, ring)
 
@@ -93,11 +92,10 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
+    """Return True if a tableau satisfies a sufficient condition for symmetry.
 
-    The function verifies a sufficient condition on the exponentials of the stages and of the update
-    (:mod:`orderconds.tableau.palindromes`). Under this condition, the variational Crouch-Grossman method of
-    the tableau is symmetric, too.
+    The condition is stated in :mod:`orderconds.tableau.palindromes`. If a tableau satisfies it, the
+    Crouch-Grossman method and the variational Crouch-Grossman method of the tableau are symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -112,14 +110,14 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The exponent with index i is ``row(i)`` k_i, where k_i is the value of the vector field at stage i.
-    ``row_sum`` is a short formula for the sum of ``row(i)`` over i, such as c_i, or None if there is no such
-    formula.
+    The exponent with index i is a multiple of the stage value k_i. The function ``row(i)`` returns the
+    coefficient of k_i. If ``row_sum`` is not None, it is a short formula for the sum of ``row(i)`` over i,
+    such as c_i.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # All letters are the same tree t here. Exponentials of multiples of t commute, so the
-        # coefficient of the word t^k is the k-th power of the coefficient of t, divided by k!.
+        # All letters of the word are equal. Exponentials of multiples of one letter commute, so their
+        # product is the exponential of the sum of the exponents.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

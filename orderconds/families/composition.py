@@ -1,10 +1,12 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods. Each condition belongs to a word.
 
-The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
-of a word denotes X_k and has weight k. In the logarithm of Phi_{alpha h}, letter k has the coefficient
-alpha^k. In the logarithm of the adjoint Phi*_{beta h}, it has the coefficient -(-beta)^k. In the exact flow,
-the word 1 1 ... 1 of n letters has the coefficient 1/n!, and all other words have the coefficient zero (HLW
-III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. The
+letter k of a word denotes X_k and has the weight k. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k
+X_k over k. The logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
+
+The condition of a word states that the word has the same coefficient in one step and in the exact flow. If
+all n letters of a word are 1, its coefficient in the exact flow is 1/n!. Otherwise this coefficient is zero
+(HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -37,9 +39,10 @@ if TYPE_CHECKING:
 
 @register
 class CompositionFamily(WordFamily):
-    """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
+    """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}.
 
-    The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...). If Phi_h is symmetric, then X_2, X_4, ... vanish.
+    Here Phi_h is a method with step size h, and Phi*_h is its adjoint. Let Phi_h = exp(h X_1 + h^2 X_2 +
+    ...). If Phi_h is symmetric, then X_2, X_4, ... are zero.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -58,26 +61,27 @@ class CompositionFamily(WordFamily):
     implies: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(
             ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
-            "a composition of midpoint rules belongs to this family (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
+            "the method is a composition of midpoint rules (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
         ),
         "symmetric_composition": "every symmetric composition is a composition",
-        "splitting": "a composition of Phi and Phi* gives a splitting of the same order (McLachlan 1995)",
+        "splitting": "a composition with the adjoint gives a splitting of the same order (McLachlan 1995)",
     }
     bounds_others = True
     unknowns = "composition"
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have the total weight ``order``."""
+        """Return all words of weight ``order``. The weight of a word is the sum of its letters."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the exact flow: 1/n! for the word 1 1 ... 1 of n letters, else
-        0."""
+        """Return the coefficient of a word in the exact flow.
+
+        If all n letters of the word are 1, the coefficient is 1/n!. Otherwise the coefficient is zero.
+        """
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which both sides of the condition of a word are multiplied: the factorial of
-        its length."""
+        """Return n!, where n is the length of the word. Both sides of the condition are multiplied by n!."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -135,7 +139,7 @@ class CompositionFamily(WordFamily):
 
 
 def power(x: Element, n: int, ring: Ring) -> Element:
-    """Return x^n by repeated multiplication, over any ring.
+    """Return x^n, computed by repeated multiplication in ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> power(QQ.rational(2, 3), 2, QQ)
@@ -157,9 +161,9 @@ The coefficient of the word in the series of the stage is the formula divided by
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The function ``block`` computes the coefficient of a part of the word in the series of one stage
-    (:data:`BlockFormula`). The argument ``kind`` is the name of the summation indices: lower case for stages,
-    upper case for exponentials.
+    The step is a composition of stages or of exponentials. The function ``block`` computes coefficients in
+    the series of one stage or exponential (:data:`BlockFormula`). The argument ``kind`` is the name of the
+    summation indices, such as "i" for stages and "J" for exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -185,8 +189,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return the pair (r! x, r!), where x is the coefficient of a word of r letters in stage ``i``. Stage i
-    is Phi_{alpha_i h} Phi*_{beta_i h} (module docstring)."""
+    """Return the formula r! x and the integer r!. Here r is the number of letters of a word, and x is the
+    coefficient of the word in the series of Phi_{alpha_i h} Phi*_{beta_i h}."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

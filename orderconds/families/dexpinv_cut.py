@@ -1,14 +1,17 @@
-"""Families with the option ``cutoff``: the power r of ad after which the series of dexpinv is truncated.
+"""Families with the option ``cutoff``. If ``cutoff`` is r, the series of dexpinv is truncated after the power
+r of ad.
 
-Let p be the order without truncation. For RKMK, p is the order of the Runge-Kutta method of the tableau. For
-VRKMK, p is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;
-Bogfjellmo and Marthinsen, Section 3.4.1).
+Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method with the
+same tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method with the same
+tableau (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
-Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
-method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
-O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Words whose
-letters are smaller trees contribute to the coefficient of a tree. The truncation changes this coefficient
-only if one of these words has more than R + 1 letters.
+If r >= 2 is even, let R = r + 1. Otherwise let R = r. For even r >= 2 the Bernoulli number B_(r+1) is zero,
+so truncation after the power r and after the power R gives the same method. The truncation changes one step
+by O(h^(R+3)). Therefore the order with truncation is min(p, R + 2) (compare Bogfjellmo and Marthinsen,
+Theorem 3.5.3).
+
+The coefficient of a tree is computed from words. The letters of these words are smaller trees. The truncation
+changes only the contributions of words with more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -31,7 +34,7 @@ CLAIMED = (0, 1, 2)
 
 
 class DexpinvCut(Family):
-    """A family with the option ``cutoff``, the power of ad after which dexpinv is truncated.
+    """A family with the option ``cutoff``. The series of dexpinv is truncated after this power of ad.
 
     Raises :class:`~orderconds.errors.InputError` for a negative ``cutoff``.
     """
@@ -45,7 +48,8 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the coefficient of a tree or forest."""
+        """Return the length of the longest word that contributes to the coefficient of a tree or forest. The
+        letters of the word are trees."""
 
     def label(self) -> str:
         """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
@@ -67,11 +71,9 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order.
+        """Return a lower bound of the order of a method, computed from its orders in other families.
 
-        Let p be the order of the method in the family that the attribute :attr:`abelian` names. Without
-        truncation, the bound is at least p. With truncation, it is at least min(p, R + 2). Here R is
-        ``cutoff`` + 1 for even ``cutoff`` >= 2, and ``cutoff`` for all other values.
+        The theorem on the truncation of dexpinv in the module docstring is one source of the bound.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -93,9 +95,10 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n such that the truncation of dexpinv does not change the contributions of words
-    with at most n letters. If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large
-    number.
+    """Return an integer n. The truncation of dexpinv does not change the contributions of words with at most
+    n letters, and n is the largest integer with this property.
+
+    If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large number.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

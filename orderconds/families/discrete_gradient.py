@@ -3,8 +3,8 @@ Hamiltonian H over one step.
 
 The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
 Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section
-2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. The order is never higher than
-two.
+2.6). The condition of order one is sum_i b_i = 1. The condition of order two is sum_i b_i c_i = 1/2. The
+order is never higher than two.
 """
 
 from __future__ import annotations
@@ -60,5 +60,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a step evaluates the energy and its differential, but not the vector field."""
+        """Return None, because a step has no field evaluations. It evaluates the energy and the differential
+        of the energy instead."""
         return None

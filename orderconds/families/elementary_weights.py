@@ -1,7 +1,8 @@
-"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
+"""Elementary weights of rooted trees as index sums, and the order conditions of trees.
 
-Here gamma is the density of the tree. In a tree with directed edges or coloured vertices there are two kinds
-of edges, with the coefficients a_ij and ahat_ij respectively.
+In the order condition of a tree, the elementary weight is equal to 1/gamma, where gamma is the density of the
+tree. A tree can have edges of two kinds, 0 and 1. An edge of kind 0 gives a factor a_ij, and an edge of kind
+1 gives a factor ahat_ij.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ kept_branches = lru_cache(maxsize=1 << 16)(branches)
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return the matrix ahat such that the tableaux (A, b) and (ahat, b) are a symplectic pair (HLW VI.4).
+    """Return the matrix ahat with the entries ahat_ij = b_j - b_j a_ji/b_i.
 
-    The entries of the matrix are ahat_ij = b_j - b_j a_ji/b_i.
+    The tableaux (A, b) and (ahat, b) define a symplectic partitioned Runge-Kutta method (Hairer, Lubich and
+    Wanner, Geometric Numerical Integration, VI.4).
 
     >>> from orderconds.ring import QQ
     >>> str(conjugate([[QQ.zero]], [QQ.one])[0][0])
@@ -41,7 +43,7 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return the elementary weight of a tree as an index sum. The tree has two kinds of edges.
+    r"""Return the elementary weight of a tree as an index sum.
 
     ``weights`` is the name of the weights in the formula, ``b`` or ``bhat``.
 
@@ -57,8 +59,8 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    The tree is a sequence whose length is the number of vertices. The function ``below`` returns the pairs
-    (kind of edge, subtree) at its root.
+    The tree is a sequence whose length is the number of vertices. The function ``below`` maps a tree to the
+    branches at the root. Each branch is a pair: the kind of its edge to the root, and its subtree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -76,9 +78,9 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return one condition for each tree: weight = 1/gamma. Here gamma is the density of the tree.
+    """Return one order condition for each tree. See :func:`weight_condition` for its form.
 
-    ``switching`` expresses the weights of dependent trees by the weights of independent trees.
+    If ``switching`` is given, each dependent condition stores its relation to the independent conditions.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -94,7 +96,9 @@ def weight_condition(
     text: Callable[[DirectedTree], str],
     formula: Callable[[DirectedTree], Formula] = weight,
 ) -> OrderCondition:
-    """Return the condition of a tree: weight = 1/gamma. Here gamma is the density of the tree.
+    """Return the order condition of a tree.
+
+    The elementary weight of the tree must be equal to 1/gamma, where gamma is the density of the tree.
 
     >>> from orderconds.trees.directed import text
     >>> print(weight_condition("sprk", bytes((0, 3)), text))
@@ -111,11 +115,12 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of the product of ``factors`` and tau_t(i).
+    """Return an index sum. Its terms are products of ``factors`` and of one coefficient for each edge of
+    ``tree``, such as a_ij.
 
-    Here t is ``tree``, and i is the last index. The number tau_t(i) is the product of the sums
-    ``sum_j a_ij tau_u(j)`` over all branches u at the root. The function ``below`` returns the branches and
-    the kinds of their edges. For an edge of kind 1, ahat_ij replaces a_ij.
+    The sum runs over ``indices`` and over one index for each vertex of the tree except the root. The last of
+    the ``indices`` is the index of the root. The argument ``below`` is explained in
+    :func:`elementary_weight`.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)
@@ -130,7 +135,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # The factors of leaves come first, as in b_i c_i a_ij c_j.
+    # At each vertex, the leaves are sorted before the larger branches.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

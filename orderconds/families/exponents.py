@@ -1,8 +1,8 @@
-"""Exponents of methods for Y' = A(t) Y, expanded in words.
+"""Exponents of methods for Y' = A(t) Y as series over words.
 
-The exponents are linear combinations of products of A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k, where c_i are
-the nodes. Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The first letter
-of a word acts first.
+The exponents are linear combinations of products of the values A_i = h A(c_i h), where c_i are the nodes. If
+A(t) = X_1 + t X_2 + ..., then A_i = sum_k c_i^(k-1) h^k X_k. The letter k of a word denotes X_k and has the
+weight k. The first letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -36,9 +36,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return one function for each exponent of a method. The function maps a word to the coefficient of the
     word in the exponent.
 
-    The exponent that acts first comes first. For a bracket [x, y], the coefficient of a word is computed from
-    all divisions of the word into two parts: one part for x, the other for y. Each coefficient is computed
-    only once.
+    The first function belongs to the exponent that acts first. Each function stores its results.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
@@ -52,9 +50,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the coefficient of a word in the product ``then * first``. The factor ``first``
-        acts first.
-        """
+        """Return the coefficient of a word in the product ``then * first``."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

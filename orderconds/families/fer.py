@@ -4,9 +4,10 @@ Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i, and F_2 =
 is a combination of brackets, written as a sum of products. If a method has more than two exponentials,
 exp(F_2) denotes the product of all factors except exp(F_1).
 
-Let A(t) = X_1 + t X_2 + ..., and let Y be the exact flow. Each condition belongs to a Lyndon word, in which
-the letter k denotes X_k. The conditions of single letters are those of a quadrature rule for F_1. The
-conditions of longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y.
+Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... A
+word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. If these
+conditions are satisfied, F_1 approximates the integral of A over one step. The conditions of longer words
+compare F_2 with the logarithm of exp(-F) Y, where F is this integral and Y is the exact flow.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
 Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
@@ -54,11 +55,13 @@ class FerFamily(MagnusFamily):
         "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i and F_2 contains "
         "only brackets."
     )
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "the step of a Fer method is a product of exponentials"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "magnus": "the step of a Fer method is also the exponential of its logarithm"
+    }
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file states the order in the family ``magnus`` instead."""
+        """Return None, because the file of a Fer method states its order in the family ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -81,16 +84,17 @@ class FerFamily(MagnusFamily):
     def exact(self, word: Word) -> Fraction:
         """Return the right-hand side of the condition of a word.
 
-        The right-hand side is 1/k for the single letter k. For a longer word, it is the coefficient of the
-        word in log(exp(-F_1) Y). Here Y is the exact flow, and F_1 is the exponent that acts last.
+        For a word that consists of one letter k, the right-hand side is 1/k. For a longer word, the
+        right-hand side is the coefficient of the word in the series log(exp(-F) Y). Here Y is the exact
+        flow, and F is the integral of A over one step.
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
-        The terms are b_i c_i^(k-1) for the single letter k, and phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... for a
-        longer word k_1 k_2 ...
+        For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
+        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ....
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 

@@ -1,11 +1,13 @@
-"""Magnus methods for Y' = A(t) Y: one exponential exp(Omega). The exponent Omega is a linear combination of
-the values A_i = h A(c_i h) and of their brackets.
+"""Magnus methods for Y' = A(t) Y. One step is the exponential of Omega. The exponent Omega is a linear
+combination of the values A_i = h A(c_i h) and of their brackets, where c_i are the nodes.
 
-If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... Here c_i are the
-nodes. In printed conditions, omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts
-first. Let A(t) = X_1 + t X_2 + ..., and let letter k denote X_k. The conditions compare Omega with the Magnus
-expansion on every Lyndon word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section
-5). If a step is a product of several exponentials, Omega is the logarithm of this product.
+If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... In printed
+conditions, omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts first. If a step is
+a product of several exponentials, Omega is the logarithm of this product.
+
+Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... The
+condition states that the word has the same coefficient in Omega and in the Magnus expansion (Iserles,
+Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5).
 """
 
 from __future__ import annotations
@@ -49,7 +51,8 @@ class MagnusFamily(WordFamily):
 
     name = "magnus"
     description = (
-        "Magnus methods for Y' = A(t) Y: the exponential of a combination of A_i = h A(c_i h) and brackets."
+        "Magnus methods for Y' = A(t) Y: the exponential of a linear combination of the values "
+        "A_i = h A(c_i h) and of their brackets."
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
@@ -62,8 +65,7 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is the exponential of its logarithm, so its order as a Magnus method is "
-        "the same",
+        "a product of exponentials is also the exponential of its logarithm",
     )
     transform: ClassVar[str] = "exp"
 
@@ -85,9 +87,9 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method uses the map :attr:`transform`, else None.
+        """Return this family for a method with the map :attr:`transform`, else None.
 
-        The file of such a method should state the order of the method in this family.
+        The file of the tableau should state the order of the method in the returned family.
         """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
@@ -97,7 +99,7 @@ class MagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have the total weight ``order``."""
+        """Return all words of weight ``order``. The weight of a word is the sum of its letters."""
         return tuple(expansions.words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -113,7 +115,8 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the coefficient of a word in Omega by the coefficients of Lyndon words in Omega."""
+        """Return the coefficient of a word in the exponent Omega as a linear combination of the coefficients
+        of Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -126,9 +129,9 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the index sum for the word k_1 k_2 ... over all indices i, j, ... of nodes.
+    """Return the sum for the word k_1 k_2 ... over all indices i, j, ... of nodes.
 
-    The summand is ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ...
+    If ``name`` is "omega", the terms of the sum are omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()
@@ -140,13 +143,12 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Express the coefficient of ``word`` in a Lie element by the coefficients of Lyndon words.
+    """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
+    Lyndon words. This combination is the same for all Lie elements.
 
-    The result is a linear combination of Lyndon words. It is the same for all Lie elements.
-
-    Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
-    linear part of this polynomial. All other terms are shuffle products of several words. In a Lie element,
-    the coefficient of such a product is zero.
+    With respect to the shuffle product, ``word`` is a polynomial in Lyndon words. The nonlinear terms of the
+    polynomial are shuffle products of two or more words, and these have the coefficient zero in a Lie
+    element. Therefore the result is the linear part of the polynomial.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -155,8 +157,10 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return a product of ``size`` exponentials or Cayley transforms with random arguments. The arguments are
-    random combinations of the values of A at ``size`` random nodes.
+    """Return a random product of exponentials (``transform`` is "exp") or of Cayley transforms ("cay").
+
+    The product has ``size`` factors. The argument of each factor is a random linear combination of the values
+    of A at random nodes. The number of nodes is also ``size``.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

@@ -1,8 +1,8 @@
-"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with the smallest number of brackets. The compiler
-emits such a program for a method of the family ``rkmk`` without ``cutoff``.
+"""Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. The compiler emits such a program
+for a method of the family ``rkmk`` without ``cutoff``.
 
-The conditions are equal to those of ``rkmk``, but their left-hand sides are computed from the Lie-Butcher
-series of the compiled program. Hence the computed order is the order of the program.
+The family checks the order of the program. It uses the order conditions of ``rkmk``, and computes their
+left-hand sides from the Lie-Butcher series of the program.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """A family that contains one method. The method is given by a program. Each exponent in the program is a
-    linear combination of stage values and brackets.
+    """A family with one method. The argument ``program`` contains the exponents of the method, written as
+    linear combinations of stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -38,16 +38,16 @@ class MinimalBrackets(MuntheKaasFamily):
         self.program = program
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of the program that this family contains. The argument ``method`` is
-        not used."""
-        # The elements of the ring Enclosures are balls of the library flint, so the coefficients of the
-        # program are converted to balls.
+        """Return the Lie-Butcher series of the method that :attr:`program` computes. The argument ``method``
+        is not used."""
+        # The ring Enclosures needs balls of the library flint. The attribute ``value`` of a coefficient of
+        # the program is such a ball.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return a copy of this family in which ``convert`` is applied to every coefficient of the
-        program."""
+        """Return a copy of this family. The function ``convert`` maps each coefficient of the program to the
+        coefficient in the copy."""
 
         def row(given: Row) -> Row:
             return {name: convert(x) for name, x in given.items()}
@@ -63,6 +63,5 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: the theorem on the truncation of dexpinv does not apply, because the exponents in the
-        program differ from the exponents of the RKMK method."""
+        """Return None, because the theorem on the truncation of dexpinv does not apply to the program."""
         return None
