@@ -35,13 +35,14 @@ if TYPE_CHECKING:
 
 
 class ActionFamily(Family):
-    """A family with one condition for each g-valued action tree t, where g is the Lie algebra.
+    """A family with one order condition for each action tree t. The velocities are elements of a Lie algebra.
 
     The left-hand side of the condition is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient
     of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
-    The method ``conditions`` evaluates all conditions for random methods and selects independent ones. The
-    method ``decisive_conditions`` returns a larger set that implies all conditions, without evaluation.
+    The function :meth:`conditions` returns independent conditions. To find them, it evaluates all conditions
+    for random integration methods. The function :meth:`decisive_conditions` needs no evaluation. It returns
+    more conditions, some of which may be dependent.
     """
 
     needs_nonzero_weights = True
@@ -56,10 +57,10 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return one action series for random methods of the family.
+        """Return the action series of a method of this family with random coefficients in ``ring``.
 
-        Each coefficient of the series is an element of ``ring``, which contains one value for each method.
-        The number of stages is large enough to show which conditions up to ``order`` are independent.
+        An element of ``ring`` may be a vector with one entry for each of several methods. The number of
+        stages is sufficient to find the independent conditions up to ``order``.
         """
 
     @abstractmethod
@@ -67,25 +68,26 @@ class ActionFamily(Family):
         """Return the object that constructs the index sums of the conditions of this family."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return independent conditions of the given order. Conditions that are easy to read are
-        preferred."""
+        """Return independent conditions of the given order. A condition is omitted if it follows from simpler
+        conditions."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of the given order. Conditions that are easy to read come first.
+        """Return the conditions of all trees of the given order. Simple conditions come first.
 
-        The attribute ``relation`` of a dependent condition is a polynomial in left-hand sides of independent
-        conditions.
+        The attribute ``relation`` of a dependent condition is a text. The text expresses the left-hand side
+        of the condition as a polynomial in the left-hand sides of independent conditions.
         """
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Map each tree of the given order whose condition is dependent to a polynomial.
+        """Return one polynomial for each dependent condition of the given order.
 
-        The polynomial expresses the left-hand side of the dependent condition by left-hand sides of
-        independent conditions. A tree in the polynomial denotes the left-hand side of the condition of this
-        tree.
+        The keys of the result are the trees of the dependent conditions. The polynomial is equal to the
+        left-hand side of the dependent condition. Its variables are the left-hand sides of independent
+        conditions. A pair (q, trees) denotes a term of the polynomial: q times the product of the variables
+        that belong to the trees.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -102,10 +104,9 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the equations in :meth:`relations` hold exactly for one random method.
+        """Return True if the equations in :meth:`relations` hold for the exact flow and a random method.
 
-        The coefficients of the random method are rational numbers. The equations must also hold for the exact
-        flow.
+        The coefficients of the random method are rational numbers, and the arithmetic is exact.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -115,14 +116,14 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order.
 
-        Trees that differ only in the choice of the root have equal conditions. Therefore only one of these
-        trees is used: the tree whose condition is easiest to read.
+        The conditions of two trees are equivalent if the trees differ only in the choice of the root. From
+        each class of such trees, only the simplest tree is used.
         """
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
-        """Yield a pair (tree, function) for each of the :meth:`decisive_conditions`. The function returns the
-        condition of the tree."""
+        """Yield a pair (tree, function) for each of the :meth:`decisive_conditions`. Each function
+        constructs the condition of the tree."""
         for of_class in classes_in_turn(order):
             yield of_class[0], partial(self.condition, of_class[0])
 
@@ -180,7 +181,10 @@ def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
 
 
 def _text(polynomial: Polynomial) -> str:
-    """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Short products come first."""
+    """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``.
+
+    Here <t> denotes the left-hand side of the condition of the tree t. Terms with few factors come first.
+    """
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")
@@ -198,7 +202,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word that contributes to the coefficient of an action tree.
+    """Return the length of the longest word in the formula for the coefficient of an action tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))

@@ -1,12 +1,17 @@
-"""The conditions of action trees as readable index sums.
+"""The conditions of action trees as sums over indices, such as ``sum_i b_i c_i^2 = 1/3``.
 
-Let u be a word of k letters. Its coefficient in a product of exponentials is a sum over indices ``j_1 <= ...
-<= j_k``, where j_n is the index of the exponential from which letter n comes. Each term is the product of the
-coefficients of the letters in the exponents, with a factor 1/r! for each run of r equal indices. This module
-writes the coefficient as several sums with strict inequalities, one for each division of u into runs. If all
-letters are equal, one term suffices: S^k/k!, where S is the sum of the letter's coefficients in all
-exponents. The printed condition is multiplied by the number k! (:func:`multiplier`), as in
-``sum_i b_i c_i^2 = 1/3``.
+The conditions contain coefficients of words in a product of exponentials. Let u be a word of k letters. Each
+letter comes from one of the exponentials, and the n-th letter comes from the exponential with index j_n. The
+coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. Each term is a product of k factors:
+the coefficients of the letters in the exponents. The term is divided by r! for each group of r letters
+from the same exponential.
+
+A run is a group of adjacent letters from the same exponential. For each division of u into runs, there is one
+sum whose indices satisfy strict inequalities. The coefficient of u is the sum over all divisions.
+
+The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
+exponents. The coefficient of u is then S^k/k!. Printed conditions contain no denominator k!, because both
+sides are multiplied by k! (:func:`multiplier`).
 """
 
 from __future__ import annotations
@@ -37,15 +42,16 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. One letter may be a string instead: the index of a stage. It marks
-the letter x that is added to the velocity of this stage (:meth:`ActionFormula.through`)."""
+"""A word whose letters are action trees. At most one letter is a string: the index of a stage. The string
+represents the letter x in :meth:`ActionFormula.through`."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The formula of a word of k equal letters contains the denominator k!. The factor is the product of k! over
-    all g-valued subtrees (w, M) whose word w consists of k equal letters.
+    The series of exp gives a denominator k! for each word of k equal letters. The factor removes these
+    denominators. It is a product over the tree and all its subtrees of type ``Velocity``: a subtree whose
+    word consists of k equal letters contributes k!.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -63,10 +69,11 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """Index sums for the conditions of action trees. Subclasses define how the stages and the update depend
-    on the velocities of the stages.
+    """The base class of objects that write the conditions of action trees as sums over indices.
 
-    The argument ``row`` of the functions in this class is the index of a stage, or None for the update.
+    A subclass defines how the stages and the update depend on the velocities of the stages. The argument
+    ``row`` of a function is the index of a stage, or None for the update. The coefficient of a tree includes
+    the factor :func:`multiplier` of this tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -76,32 +83,31 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times a factor.
+        """Return the coefficient of a word in the group element of stage ``row``.
 
-        The factor is k! if the word consists of k equal letters, and one otherwise.
+        If the word consists of k equal letters, the result is k! times this coefficient.
         """
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
-        ``row`` is None.
+        """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
-        other velocities are unchanged.
+        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
+        the sum of this velocity and x.
+        If ``row`` is None, the group element is that of the update.
         """
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return the left-hand side of the condition of t = ``tree``: the sum ``sum_i b_i tau_t(i)``,
-        multiplied by ``multiplier(tree)``.
+        """Return the left-hand side of the condition of t = ``tree``, the sum ``sum_i b_i tau_t(i)``.
 
-        The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
+        Here ``tau_t(i)`` is the result of :meth:`tau` for the tree t and stage i.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return the coefficient of a tree in the velocity of ``stage``, times :func:`multiplier` of the
-        tree.
+        """Return the coefficient of a tree in the velocity of ``stage``. The result includes the factor
+        :func:`multiplier` of the tree.
         """
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
@@ -122,8 +128,9 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """Index sums for methods whose stages and update are products of exponentials. If a function has an
-    argument ``place``, this argument is the index of an exponential.
+    """Sums for methods whose stages and update are products of exponentials.
+
+    The argument ``place`` of a function is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -140,9 +147,9 @@ class ExponentialsFormula(ActionFormula):
         """Return the coefficient of ``tree`` in the exponent with index ``place`` of stage ``row``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times a factor.
+        """Return the coefficient of a word in the group element of stage ``row``.
 
-        The factor is k! if the word consists of k equal letters, and one otherwise.
+        If the word consists of k equal letters, the result is k! times this coefficient.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -156,23 +163,24 @@ class ExponentialsFormula(ActionFormula):
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in the product of the exponentials J with ``above`` < J < ``below``.
+        """Return a word's coefficient in the product of exponentials whose indices J satisfy ``above`` < J <
+        ``below``.
 
-        A bound that is None imposes no condition.
+        If ``above`` is None, J has no lower bound. If ``below`` is None, J has no upper bound.
         """
         if not word:
             return one()
-        # Divisions of the word into many runs come first. In the first term, each run has one letter.
+        # A run is a group of adjacent letters from one exponential. In the first term, each run has length 1.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return one term of :meth:`between`, as a pair of a factor and an index sum.
+        """Return a pair (factor, formula). The product of both is one term of the result of :meth:`between`.
 
-        The term belongs to a division of the word into runs of the given ``lengths`` r_1, r_2, .... All
-        letters of a run come from the same exponential. The factor is 1/(r_1! r_2! ...).
+        The word is divided into runs, and all letters of a run come from the same exponential. The numbers of
+        letters in the runs are ``lengths``. The factor is 1 divided by the factorials of these numbers.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -183,10 +191,10 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the contribution of one exponential to the coefficient of the word u x v.
+        """Return the coefficient of the word u x v in the product of exponentials of stage ``row``.
 
-        Here u is ``before``, v is ``after``, and the letter x comes from the exponential with index ``place``
-        in stage ``row``. In the exponent of this exponential, x has the coefficient one.
+        Here u is ``before``, v is ``after``, and x is a letter that occurs in one exponent only. The index of
+        this exponent is ``place``, and the coefficient of x in the exponent is one.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -200,8 +208,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each a_ij in stage i, and one for each b_j in the
-    update. The index of the exponential is j.
+    """Sums for Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij, and the update
+    has one exponential for each weight b_j. The index of an exponential is j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -222,19 +230,20 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
-        ``row`` is None.
+        """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
-        other velocities are unchanged. Only the exponential with index ``stage`` contains the velocity of
-        ``stage``.
+        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
+        the sum of this velocity and x. This velocity occurs in one exponential only. If ``row`` is None, the
+        group element is that of the update.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Index sums for products of exponentials. The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage
-    i, and ``sum_j beta_Jj xi_j`` in the update. Here xi_j is the velocity of stage j.
+    """Sums for commutator-free methods. The stages and the update are products of exponentials.
+
+    The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage i. In the update, it is ``sum_j beta_Jj
+    xi_j``. Here xi_j is the velocity of stage j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -256,11 +265,11 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
-        ``row`` is None.
+        """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
-        other velocities are unchanged.
+        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
+        the sum of this velocity and x.
+        If ``row`` is None, the group element is that of the update.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -273,12 +282,12 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Index sums for methods with one exponential exp(X_i) in stage i and exp(Y) in the update.
+    """Sums for Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
 
-    The exponents are ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j`` and ``Y = sum_j b_j dexpinv^(r)(X_j) xi_j``.
-    Here xi_j is the velocity of stage j. The operator dexpinv^(r)(X_j) acts on xi_j. It is the series of
-    dexpinv at X_j, truncated after the power r = ``cutoff`` of ad. If ``cutoff`` is None, the series is not
-    truncated.
+    The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``,
+    and xi_j is the velocity of stage j. The operator dexpinv is the inverse of the differential of exp. It is
+    a power series in ad, which is truncated after the power ``cutoff``. If ``cutoff`` is None, the series is
+    not truncated.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -291,10 +300,9 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), times a factor. Here i is ``row``.
+        """Return the coefficient of a word in exp(X_i), where i is ``row``. The class docstring defines X_i.
 
-        The class docstring defines X_i. The factor is k! if the word consists of k equal letters, and one
-        otherwise.
+        If the word consists of k equal letters, the result is k! times this coefficient.
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
@@ -304,8 +312,8 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of the word u x v in exp(X_i) with i = ``row``, or in exp(Y) if ``row`` is
         None. The class docstring defines X_i and Y.
 
-        Here u is ``before``, and v is ``after``. The letter x is added to the velocity of ``stage``, and all
-        other velocities are unchanged.
+        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
+        the sum of this velocity and x.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -315,8 +323,10 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i^n with i = ``row``, or in Y^n if ``row`` is None. The
-        class docstring defines X_i and Y."""
+        """Return the coefficient of ``word`` in the n-th power of X_i, where i is ``row``.
+
+        If ``row`` is None, Y takes the place of X_i. The class docstring defines X_i and Y.
+        """
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -342,9 +352,9 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of ``word`` in X_i with i = ``row``, or in Y if ``row`` is None.
 
-        The class docstring defines X_i and Y. Each is a linear combination of the elements dexpinv^(r)(X_j)
-        xi_j. The coefficient is a sum over the letters of the word: one letter comes from xi_j, and all other
-        letters come from X_j.
+        The class docstring defines X_i and Y as linear combinations of ``v_j = dexpinv_{X_j} xi_j``. In each
+        term of v_j, one letter of the word comes from xi_j, and all other letters come from X_j. The result
+        is a sum over the choices of the letter that comes from xi_j.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -359,16 +369,17 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi with at most ``letters`` factors X in a term.
+        """Return the terms of the truncated series dexpinv_X xi, as triples (q, m, n).
 
-        The triple (q, m, n) denotes the term q X^n xi X^m.
+        A triple denotes the term ``q X^n xi X^m`` with n + m <= ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X^0 = 1 contains only the empty word. X^m with m > 0 contains only non-empty words.
+            # The coefficient of a non-empty word in X^0 = 1 is zero. In a power X^m with m > 0, the
+            # coefficient of the empty word is zero.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -378,11 +389,12 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for methods with one exponential exp(X_i) in stage i and exp(Y) in the update.
+    """Sums for Munthe-Kaas methods that truncate dexp instead of dexpinv. Stage i has the exponential
+    exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
-    equation dexp^(r)(X_j) v_j = xi_j, where xi_j is the velocity of stage j. The operator dexp^(r) is dexp,
-    truncated after the power r = ``cutoff`` of ad.
+    equation ``dexp_{X_j} v_j = xi_j``, and xi_j is the velocity of stage j. The operator dexp is the
+    differential of exp. It is a power series in ad, which is truncated after the power ``cutoff``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

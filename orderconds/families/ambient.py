@@ -1,7 +1,8 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-After one step, the distance from the manifold is at most the local error. The order is the classical order of
-the tableau. The purpose of this family is a comparison with methods that stay on the manifold.
+A step may leave the manifold. The exact solution stays on the manifold. Therefore the distance from the
+manifold after one step is at most the local error. The order is the classical order of the tableau. This
+family is intended for comparisons with methods that stay on the manifold.
 """
 
 from __future__ import annotations

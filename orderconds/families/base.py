@@ -1,8 +1,8 @@
-"""The base class of families, with every attribute and method that the rest of the program uses.
+"""The base class of all families of integration methods.
 
 A family determines which integration method a tableau defines. The order conditions of the family compare the
-series of this method with the series of the exact flow. Facts about a family are attributes and methods of
-its class.
+series of this method with the series of the exact flow. The base class declares all attributes and functions
+of a family that other modules use.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ class Family(ABC):
     name: ClassVar[str] = ""
     """The name of the family in commands and claims, in lower case."""
     description: ClassVar[str] = ""
-    """The description of the family in ``orderconds list families``, one line."""
+    """A description in one line, which the command ``orderconds list families`` prints."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if tableaux define the methods of the family. False if labels such as ``taylor(12)`` define the
-    methods.
+    """True if each method of the family is defined by a tableau. False if each method is defined by a label,
+    such as ``taylor(12)``.
     """
     source: ClassVar[str] = ""
-    """The publication that defines the methods of a family without tableaux, or an empty string."""
+    """The publication that defines the methods of a family without tableaux. Empty for other families."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
@@ -66,10 +66,11 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if the family can use rational arithmetic for some methods with irrational coefficients
-    (:mod:`orderconds.ring.nodal`)."""
+    """True if the order conditions can be evaluated over Q for some methods with irrational coefficients. The
+    module :mod:`orderconds.ring.nodal` describes such methods."""
     trees: ClassVar[str | None] = None
-    """The kind of trees to which conditions belong (:mod:`orderconds.explain.kinds`); None for words."""
+    """The kind of trees to which the conditions belong (:mod:`orderconds.explain.kinds`). None if the
+    conditions belong to words."""
     illustrates: ClassVar[tuple[str, ...]] = ()
     """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
 
@@ -85,25 +86,24 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps the name of another family F to a reason. It explains why the order of a method in F is at least
-    its order in this family.
+    """Maps the names of other families to reasons. Each reason explains why a method of order p in this
+    family has at least order p in the other family.
     """
     abelian: ClassVar[str | None] = None
-    """The family to which this family reduces on an abelian group; None if there is no such family."""
+    """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
     """The name of a family with the same conditions of orders 1 and 2, or None."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of all families F with this theorem: every low-storage scheme (2N) has the same order in F
-    and in this family."""
+    """The names of families in which every low-storage scheme has the same order as in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. The weights b and a second set of weights can then
-    use the same stages. The difference of the two results estimates the error.
+    """True if the stages do not depend on the weights. Two updates with different weights can then
+    use the same stages. The difference of the two updates estimates the error.
     """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
@@ -114,14 +114,14 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can minimise the number of brackets of methods without
-    ``cutoff``.
+    """The highest order of methods for which the compiler can minimise the number of brackets. The methods
+    have no ``cutoff``.
     """
     cutoff: int | None = None
-    """The power of ad after which the series of dexpinv is truncated, or None without truncation."""
+    """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
 
     default_series: ClassVar[bool] = False
-    """True if ``orderconds modified`` may choose this family by default."""
+    """True if ``orderconds modified`` tries this family when the user names no family."""
 
     # Search
     unknowns: ClassVar[str | None] = None
@@ -132,8 +132,8 @@ class Family(ABC):
     """True if a search considers only symplectic tableaux. Their coefficients satisfy b_i a_ij + b_j a_ji =
     b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three imply c_i = chat_i = m_i for each stage i with positive weights.
-    The module :mod:`orderconds.solve.abscissae` defines these three abscissae.
+    """True if the conditions of order three imply c_i = chat_i = m_i whenever all weights are positive. The
+    module :mod:`orderconds.solve.abscissae` defines the abscissae c_i, chat_i and m_i.
     """
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
@@ -144,10 +144,10 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return sufficient conditions of the given order.
+        """Return conditions that imply :meth:`all_conditions` of the given order.
 
-        Together with the conditions of lower order, they imply :meth:`all_conditions` of the given order. In
-        most families, the returned conditions are independent (:meth:`essential_conditions`).
+        The implication assumes that all conditions of lower order hold. In most families, the returned
+        conditions are independent.
         """
 
     @abstractmethod
@@ -161,9 +161,10 @@ class Family(ABC):
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return an independent subset of :meth:`conditions`, by default all of them.
+        """Return the :meth:`conditions` of the given order without dependent conditions.
 
-        No condition in the subset follows from other conditions of the given order or of lower orders.
+        A condition is dependent if it follows from other conditions of the same order or of lower orders. By
+        default, no condition is dependent.
         """
         return self.conditions(order)
 
@@ -189,14 +190,14 @@ class Family(ABC):
         """Return conditions that imply all conditions of the given order. By default, return
         :meth:`conditions`.
 
-        A subclass must select the conditions without computing the rank of a matrix, because this computation
-        is slow.
+        A subclass can override this function if the function :meth:`conditions` is slow because it computes
+        the rank of a matrix.
         """
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield a pair (key, function) for each of the :meth:`decisive_conditions`. The function returns the
-        condition with this key."""
+        """Yield a pair (key, function) for each of the :meth:`decisive_conditions`. Each function
+        constructs the condition with the given key."""
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
@@ -209,7 +210,8 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand side minus the right-hand side of each condition, as elements of ``ring``.
 
-        Raises ZeroDivisionError if the evaluation divides by a ball that contains zero.
+        The coefficients may be balls (intervals). Raises ZeroDivisionError if a divisor is a ball that
+        contains zero.
 
         >>> from orderconds.families import get
         >>> from orderconds.tableau import Tableau, find
@@ -236,7 +238,8 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return residuals of conditions of the given order. By default, these are the :meth:`conditions`.
+        """Return one residual for each of the :meth:`conditions` of the given order. A subclass may use other
+        conditions of this order.
 
         For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
@@ -259,14 +262,14 @@ class Family(ABC):
     def for_method(self, method: Method) -> Family:
         """Return the family in which ``check`` evaluates ``method`` if the tableau file states no order.
 
-        The name of a tableau format is also the name of a family. ``check`` calls this function of that
-        family. By default, the function returns the family itself.
+        The object ``self`` is the family with the same name as the format of the tableau. By default, return
+        ``self``.
         """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should contain an order for this family. Otherwise
+        """Return this family if the file of ``tableau`` should state the order in this family. Otherwise
         return None."""
         return None
 
@@ -277,10 +280,10 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family for which a tableau file should contain an order, such as
-        ``rkmk(0)`` and ``rkmk(1)``.
+        """Return variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``.
 
-        The variant with the cheapest step comes first.
+        A tableau file should state the order of the method in each of the returned variants. The variant
+        with the cheapest step comes first.
         """
         return (self,)
 
@@ -301,16 +304,17 @@ class Family(ABC):
         raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
 
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
-        """Return the coefficients of the stability function of a family without tableau, by ascending powers.
+        """Return the coefficients of the stability polynomial of a family without tableau. The constant term
+        comes first.
 
         Return None for a family with a tableau.
         """
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the coefficients of methods with ``stages`` stages.
+        """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        If ``explicit`` is true, the methods are explicit. Raises :class:`~orderconds.errors.InputError` if
+        If ``explicit`` is true, the method is explicit. Raises :class:`~orderconds.errors.InputError` if
         the number of stages does not determine the coefficients of the family.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
@@ -328,25 +332,29 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that follows from orders in other families, or 0.
+        """Return a lower bound of the order in this family. It follows from the orders in other families.
 
-        ``orders`` maps the labels of other families to the orders of the method in these families.
+        ``orders`` maps the labels of other families to the orders of the method in these families. The bound
+        is 0 if no theorem applies.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that follows from a theorem about the coefficients, or 0."""
+        """Return a lower bound of the order that follows from properties of the coefficients.
+
+        The bound is 0 if no theorem applies.
+        """
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method``, as a method of this family, is proved to be symmetric."""
+        """Return True if ``method`` is proved to be symmetric in this family."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family with fewer conditions, and the method in a format of that family.
+        """Return a substitute for this family, or None. The substitute is a family with fewer conditions.
 
-        For the given method, the conditions of the other family imply the conditions of this family. Return
-        None if no such family is known.
+        For the given method, the conditions of the substitute imply the conditions of this family. The result
+        also contains the method in a format that the substitute accepts.
         """
         return None
 
@@ -358,9 +366,9 @@ class Family(ABC):
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return an object that describes which conditions the truncation of dexpinv leaves unchanged.
+        """Return a description of the conditions that the truncation of dexpinv does not change.
 
-        Return None if no theorem describes these conditions. By default, return None.
+        By default, return None. This means that no such description is known.
         """
         return None
 
@@ -384,25 +392,25 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions. They determine the order of ``method`` if it is symmetric.
+        """Return a family with fewer conditions. If ``method`` is symmetric, the conditions of the returned
+        family determine its order.
 
         Return None if no such family is known.
         """
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return lower bounds of the order of a method in some families, as pairs (family, bound).
+        """Return lower bounds of the orders of symmetric methods, as pairs (family, bound).
 
-        The bounds hold for every symmetric method that has the order ``order`` in this family.
+        A symmetric method of order ``order`` in this family has at least the order ``bound`` in ``family``.
         """
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions replace the conditions of this family in the
-        command ``orderconds solve``.
+        """Return the label of the family whose conditions the command ``orderconds solve`` solves.
 
-        By default, return the label of this family: no conditions are replaced. ``nystroem`` is true if the
-        option ``--rkn`` is set.
+        By default, this is the label of the family itself. ``nystroem`` is true if the option ``--rkn`` is
+        set.
         """
         return self.label()
 
