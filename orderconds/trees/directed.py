@@ -1,14 +1,16 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
-An edge joins a parent i and a child j. An edge that points away from the root has kind 0 and the coefficient
-a_ij. An edge that points to the root has kind 1 and the coefficient ahat_ij. If the root is moved from one
-end of an edge to the other end, the direction of the edge does not change, but the kind changes. Symplectic
-methods satisfy b_i ahat_ij = b_i b_j - b_j a_ji. Hence the elementary weights of the rooted trees before and
-after the move add up to a product of elementary weights of smaller trees. The order conditions are therefore
-indexed by free trees with directed edges.
+A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an edge join a parent i and a
+child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
+An edge that points to the root has kind 1 and gives the factor ahat_ij.
+
+If the root is moved across an edge, the direction of the edge does not change, but the kind changes.
+Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Hence the elementary weights before and after the
+move of the root add up to a product of elementary weights of smaller trees. The order conditions are
+therefore indexed by free trees with directed edges.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. Here ``kind`` is the kind of
-the edge to the parent. Branches are in descending order.
+the edge to the parent. The branches of a vertex are sorted by their bytes, in descending order.
 """
 
 from __future__ import annotations
@@ -128,11 +130,11 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree, rooted at the vertex for which the order condition is simplest to read.
+    """Return the tree with the root at the vertex that gives the simplest order condition.
 
-    For one choice of the root, let n_0 be the number of edges that point away from the root (kind 0). Let n_1
-    be the number of edges that point to the root (kind 1). The root is chosen such that min(n_0, n_1) is
-    least. Ties are broken by the least height, and then by the least n_1.
+    Let n_0 be the number of edges of kind 0, and n_1 the number of edges of kind 1. Both depend on the root.
+    The root is chosen such that min(n_0, n_1) is least. If several roots give the least value, choose the
+    least height. If several roots remain, choose the least n_1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -155,8 +157,10 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
-    root, and v. Yield u, v, and the whole tree with the root moved across the edge to v.
+    r"""Yield three trees for each edge at the root.
+
+    The edge separates the tree into u, which contains the root, and v. Yield u, v, and the whole tree with
+    the root moved across the edge.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -168,7 +172,8 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the best roots by the criteria of :func:`representative`."""
+    """Return the preorder indices of the vertices that :func:`representative` can choose as root. Several
+    vertices can satisfy the criteria equally well."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])
@@ -176,8 +181,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # If the root moves from a vertex to a child, only the kind of the edge between the two vertices
-        # changes.
+        # ``hats[place]`` is the number of edges of kind 1 if the root is at ``place``. A move of the root
+        # across an edge changes the kind of this edge only.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
@@ -190,8 +195,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # ``above`` is the length of the longest path whose first edge joins a vertex to its parent. At the
-        # parent, the path either continues to the parent of the parent or enters another branch.
+        # ``above[place]`` is the length of the longest path that starts at the vertex ``place`` and first
+        # goes to its parent. From there, the path goes further up, or down into another branch of the parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])
@@ -200,7 +205,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
 
 
 def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
-    """Return the canonical form of the tree, rooted at the vertex whose index in preorder is ``place``."""
+    """Move the root to the vertex with the preorder index ``place``. Return the tree in canonical form."""
     behind: list[Branch] = []
     while place:
         start = 1

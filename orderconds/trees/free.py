@@ -3,9 +3,10 @@
 The order conditions of symplectic Runge-Kutta methods are indexed by free trees. Let phi be the elementary
 weight and o Butcher's product of rooted trees. The relation b_i a_ij + b_j a_ji = b_i b_j implies the
 following equation for all rooted trees u and v: phi(u o v) + phi(v o u) = phi(u) phi(v) (Sanz-Serna and Abia
-1991; HLW VI.7.1). In particular, phi(u o u) = phi(u)^2/2. If a tree can be rooted as u o u, its condition
-follows from the condition of u. Such a tree is called superfluous. HLW denotes Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*.
+1991; HLW VI.7.1). In particular, phi(u o u) = phi(u)^2/2. Hence the order condition of u o u follows from the
+order condition of u. A free tree is called superfluous if some choice of the root gives a tree u o u.
+
+HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -17,13 +18,13 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. It denotes the move of the root that changes the tree u o v to v o u. Here o is
-Butcher's product."""
+"""A pair (u, v) of trees. Let o be Butcher's product. The pair denotes the move of the root that changes the
+tree u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
 def free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return every free tree exactly once. The root is chosen such that the height is least.
+    """Return every free tree exactly once. The function :func:`representative` chooses the root of each tree.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in free_trees(5)]
@@ -33,7 +34,7 @@ def free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return the free trees that no edge divides into two equal halves (HLW VI.7.1).
+    """Return the free trees that are not superfluous (see :func:`superfluous`; HLW VI.7.1).
 
     >>> [len(essential_free_trees(n)) for n in range(1, 8)]
     [1, 0, 1, 1, 3, 4, 11]
@@ -42,8 +43,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if some edge divides a tree into two equal rooted trees. The order condition of such a
-    tree is superfluous.
+    r"""Return True if a tree is superfluous: without one of its edges, the tree consists of two equal rooted
+    trees. The ends of the removed edge are the roots. The order condition of such a tree is not needed.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)
@@ -52,8 +53,8 @@ def superfluous(tree: Tree) -> bool:
 
 
 def representative(tree: Tree) -> Tree:
-    r"""Return the tree, rooted at a vertex for which the height is least. If there are several such vertices,
-    choose the vertex that gives the greatest level sequence.
+    r"""Return the tree with the root at the vertex that gives the least height. If several vertices give the
+    least height, choose the vertex that gives the greatest level sequence.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'
@@ -62,8 +63,11 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield three trees u, v and v o u for each edge at the root of a canonical tree. The edge separates the
-    tree u o v into u, which contains the root, and v. Here o is Butcher's product.
+    r"""Yield three trees for each edge at the root of a canonical tree.
+
+    The edge separates the tree into u, which contains the root, and v. Yield u, v, and the whole tree with
+    the root moved across the edge. The whole tree is u o v before the move and v o u after the move, where o
+    is Butcher's product.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')
@@ -76,7 +80,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
     r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. Here ``rooting`` is the tree with
-    this vertex as root. ``moves`` contains the moves of the root from the original root to this vertex.
+    this vertex as root. The root is moved to this vertex step by step, across one edge at a time. ``moves``
+    contains one :data:`Move` for each step.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

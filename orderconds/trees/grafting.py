@@ -4,10 +4,13 @@ Let F(t) be the elementary differential of a tree t. Grafting u onto v correspon
 in the direction F(u). Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet
 2001).
 
-For ordered trees, F([t_1 ... t_k]) = X_1 ... X_k f, where f is the vector field, and X_l differentiates along
-the fixed element F(t_l) of the Lie algebra. A further derivative is an operator to the left of X_1. Hence
-ordered trees are grafted to the left of the existing branches (Munthe-Kaas and Wright, Found. Comput. Math. 8
-(2008) 227). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+Now let t be an ordered tree with the branches t_1, ..., t_k at the root. Let f be the vector field of the
+differential equation. Then F(t) is obtained from f by k derivatives, first along F(t_k), and finally along
+F(t_1). In each derivative, the direction is a fixed element of the Lie algebra. The derivatives do not
+commute. A grafted tree adds a derivative after the existing ones. Hence the grafted tree becomes the leftmost
+branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+
+HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -38,8 +41,9 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the trees that result if u becomes a new branch of a vertex of v. Each vertex of v gives one
-    tree. The result maps each tree to the number of vertices that give it. Both u and v are unordered.
+    r"""Return the trees that result if u becomes a new branch of a vertex of v. The trees are unordered.
+
+    Each vertex of v gives one tree. The result maps each tree to the number of vertices that give this tree.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -56,7 +60,7 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Return the forests that result if each tree of ``word`` is attached to a vertex of ``onto``, in all
-    possible ways. If different ways give the same forest, it is returned several times.
+    possible ways. A forest that results from several ways is returned several times.
 
     Trees that are attached to the same vertex keep their order. The existing branches of the vertex are to
     the right of the attached trees.
@@ -77,11 +81,10 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result if ``word`` is attached to ``tree``, in all possible ways.
+    """Return the trees that result if each tree of ``word`` is attached to a vertex of ``tree``, in all
+    possible ways.
 
-    Each way divides ``word`` into two subwords (see :func:`deshuffles`). The trees of the first subword are
-    attached to the root, to the left of the existing branches. The trees of the second subword are attached
-    to vertices of the branches.
+    Trees that are attached to the root are placed to the left of its existing branches.
     """
     grafted = []
     for root, above in deshuffles(word):

@@ -1,9 +1,10 @@
 """Level sequences of trees and forests: the levels of the vertices in preorder, one byte for each vertex.
 
-Roots have level 0, and a tree is a forest with one root. The type ``bytes`` is fast to hash and to compare,
-and a subtree is a slice of the sequence. Trees are printed in brackets. For example, ``.`` is one vertex, and
-``[..]`` is a root with two leaves. The trees of a forest are separated by spaces. HLW denotes Hairer, Lubich
-and Wanner, *Geometric Numerical Integration*.
+Roots have level 0. A tree is a forest with one root. The type ``bytes`` is fast to hash and to compare.
+
+Trees are printed in brackets. For example, ``.`` is one vertex, and ``[..]`` is a root with two leaves. The
+trees of a forest are separated by spaces. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations
@@ -84,8 +85,8 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the canonical form of a tree. Its level sequence is the greatest one that a rearrangement of
-    branches can give.
+    r"""Return the canonical form of a tree. Branches are rearranged such that the level sequence becomes as
+    great as possible in lexicographic order.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'
@@ -109,8 +110,8 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` if the text does not consist of dots and balanced, non-empty
-    brackets.
+    Raises :class:`~orderconds.errors.InputError` if the text is too long or a character is not allowed.
+    Empty or unbalanced brackets raise the same error.
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:

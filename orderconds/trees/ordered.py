@@ -39,8 +39,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Decrease the last level that can decrease. Set each level to the right of it to one more than its
-        # left neighbour.
+        # Find the last level that is greater than ``lowest``. Decrease this level by one. After it, let the
+        # levels increase by one from vertex to vertex.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

@@ -25,7 +25,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     while True:
         yield bytes(levels)
         # Let p be the last vertex that is neither the root nor a child of the root. Let q be the parent of p.
-        # Replace the levels from p on by copies of the levels from q to p - 1.
+        # The levels of the vertices q, ..., p - 1 form a sequence. From p to the last vertex, overwrite the
+        # levels by repetitions of this sequence.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

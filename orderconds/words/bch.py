@@ -50,10 +50,11 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    Let a word begin with A and consist of m runs of equal letters, of lengths s_1, ..., s_m. The coefficient
-    of the word is the integral from 0 to 1 of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t), where [x]
-    is the integer part of x. The polynomials G_s are defined by G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If
-    A and B are exchanged in a word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956,
+    Let m be the number of runs of equal letters in the word. Let s_1, ..., s_m be the lengths of the runs.
+    The polynomials G_s are defined by G_1 = 1 and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first
+    letter is A, the coefficient of the word is the integral from t = 0 to t = 1 of the polynomial
+    t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t). Here [x] is the integer part of x. If the first
+    letter is B, the integral is multiplied by (-1)^(n-1), where n is the number of letters (Goldberg 1956,
     Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0

@@ -2,8 +2,8 @@
 word.
 
 A function on words represents a series. The value on a word is the coefficient of this word. The convolution
-of f and g on a word w is the sum of f(u) g(v) over all divisions w = uv. The part u acts first. If a function
-is zero on the empty word, every power series of the function is a finite sum on each word.
+of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the rest v. If a
+function is zero on the empty word, a power series of the function is a finite sum on each word.
 """
 
 from __future__ import annotations
@@ -33,19 +33,19 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
     """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word.
 
-    Here f^m is the m-fold convolution of f. The value of f on the empty word is assumed to be zero and is not
-    computed. Only the first n entries of ``scales`` are used for a word of n letters.
+    Here f^m is the m-fold convolution of f. The value of f on the empty word is replaced by zero. Hence the
+    terms with m > n are zero for a word of n letters, and n entries of ``scales`` are sufficient.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters. The first power is m = 1.
+    # powers[end] is the value of f^m on the first ``end`` letters. Start with m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # tails[end] contains the non-zero values of f on the words word[start:end] with start >= 1. Most values
-    # are zero.
+    # tails[end] contains the pairs (start, x), where x is the value of f on word[start:end] and start >= 1.
+    # Most values are zero. Pairs with x = 0 are omitted to save time.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)
@@ -92,8 +92,8 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of the function 2 z /
-    (2 + z), which maps cay(x) - 1 to x.
+    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of z, z^2, ... in the
+    function 2 z/(2 + z). This function maps z = cay(x) - 1 to x.
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

@@ -1,10 +1,15 @@
-"""Magnus, Fer and Cayley expansions in words, for Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + ....
+"""Magnus, Fer and Cayley expansions in words, and the series of dexp, its inverse and the inverse of dcay.
 
-Letter k denotes X_k and has weight k. At time t, the coefficient of a word of weight n is t^n times the
-coefficient at t = 1. All functions return the coefficient at t = 1. The first letter of a word acts first, so
-the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}. The function
-:func:`orderconds.words.lie.backwards` reverses all words. Sources: Iserles, Munthe-Kaas, Noersett and Zanna,
-Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
+The expansions solve Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k and has weight
+k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}.
+At time t, the coefficient of a word of weight n is t^n times the coefficient at t = 1. The functions return
+the coefficient at t = 1.
+
+The series of dexp, its inverse and the inverse of dcay have the letters U and X. In these series, a word
+denotes the product of its letters in the written order.
+
+Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas,
+Oteo and Ros, Physics Reports 470 (2009) 151.
 """
 
 from __future__ import annotations
@@ -42,9 +47,9 @@ def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion. The expansion is the Lie element Omega with
     Y = exp(Omega), where Y is the solution of Y' = A(t) Y with Y(0) = I.
 
-    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first, so
-    [X_1, X_2] = X_1 X_2 - X_2 X_1 is the word (2, 1) minus the word (1, 2). For example, the term of weight
-    three contains -[X_1, X_2]/12.
+    Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first. Hence
+    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12 at t = 1. The word
+    (2, 1) has the coefficient -1/12 in this term, and the word (1, 2) has the coefficient 1/12.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -71,8 +76,9 @@ def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in F_n of the Fer expansion Y = exp(F_1) exp(F_2) exp(F_3) .... Here Y
     is the solution of Y' = A(t) Y with Y(0) = I. The factor exp(F_1) acts last.
 
-    F_n is the integral of A_n, where A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The
-    words of F_n have at least the weight 2^n - 1.
+    F_n is the integral of A_n over time. The fields are A_1 = A and
+    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The series F_n contains no
+    words of weight less than 2^n - 1.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -94,8 +100,10 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words in the letters U and X. A word denotes
-    the product of its letters in the written order. Words have at most ``length`` letters.
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words in the letters U and X.
+
+    Here ad_U X = U X - X U. A word denotes the product of its letters in the written order. Words have at
+    most ``length`` letters.
 
     >>> {"".join(word): str(value) for word, value in dexp(2).items()}
     {'X': '1', 'UX': '1/2', 'XU': '-1/2'}
@@ -120,8 +128,10 @@ def dexp_inverse(length: int) -> Series:
 
 
 def dcay_inverse() -> Series:
-    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 as a finite series of words in the letters U and X. A
-    word denotes the product of its letters in the written order.
+    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4, where dcay is the derivative of the Cayley map.
+
+    The result is a finite series of words in the letters U and X. A word denotes the product of its letters
+    in the written order.
 
     >>> {"".join(word): str(value) for word, value in dcay_inverse().items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2', 'UXU': '-1/4'}
@@ -171,8 +181,8 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The head of a word acts first. In the product
-        # F_n x, the factor x acts first, so x contributes the head, and F_n contributes the tail.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The first letter of a word acts first. In the
+        # product F_n x, the factor x acts first. Hence ``head`` is a word of x, and ``tail`` a word of F_n.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result

@@ -1,10 +1,11 @@
 """Hall bases of free Lie algebras, and the rewriting of brackets in these bases. The weight of a letter is a
 positive integer.
 
-Brackets are sorted by weight. Brackets of equal weight are sorted by the order of their construction. A
-bracket [x, y] of basis elements belongs to the basis under two conditions: x < y, and y is a letter or y =
-[y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All
-other brackets are rewritten by antisymmetry and Jacobi's identity.
+Basis elements are sorted by weight. Basis elements of equal weight are in the order of their construction.
+Letters are basis elements. Let x and y be basis elements with x < y. The bracket [x, y] belongs to the basis
+if y is a letter. If y is a bracket [u, v], then [x, y] belongs to the basis if u <= x (M. Hall, Proc. AMS 1
+(1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are rewritten by antisymmetry
+and Jacobi's identity.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ class HallBasis:
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}
 
     def of_weight(self, n: int) -> tuple[Bracket, ...]:
-        """Return the basis elements of weight n, in ascending order. The pair (x, y) denotes the bracket [x,
-        y]."""
+        """Return the basis elements of weight n, in ascending order. The pair (x, y) denotes the bracket
+        [x, y]."""
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
@@ -116,9 +117,10 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The inner brackets have lower
-            # weight. Since x < u < v, both factors of each outer bracket are greater than x. Only finitely
-            # many basis elements have the same weight or less, so the recursion ends.
+            # Let y = [u, v]. Then u < v, because y is a basis element. Also x < u, because [x, y] is not a
+            # basis element. By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The inner
+            # brackets have lower weight. The outer brackets have factors greater than x. Only finitely many
+            # basis elements have at most the weight of [x, y], so the recursion ends.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -1,9 +1,11 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-The standard bracketing of a Lyndon word w is equal to w plus greater words of the same letters. Hence the
-coordinates follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie
-Algebras, Thm 5.1). In this module, a word denotes the product of its letters in the written order. In other
-modules, the first letter of a word acts first. The function :func:`backwards` converts between these
+If the standard bracketing of a Lyndon word w is expanded, the result is w plus a combination of greater
+words. Hence the coordinates follow from the coefficients of Lyndon words by forward substitution (Reutenauer,
+Free Lie Algebras, Thm 5.1).
+
+In this module, a word denotes the product of its letters in the written order. In the Magnus, Fer and Cayley
+expansions, the first letter of a word acts first. The function :func:`backwards` converts between these
 conventions.
 """
 
@@ -64,8 +66,10 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Reverse every word of a series. This converts between two conventions: the first letter of a word acts
-    first, or the last letter acts first. In a product of operators, the last factor acts first.
+    """Reverse every word of a series.
+
+    There are two conventions: the first letter of a word acts first, or a word denotes the product of its
+    letters in the written order. Reversal converts from each convention to the other.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -80,8 +84,9 @@ def coordinates_from_values(
 
     The Lie element is a series of words. Each word denotes the product of its letters in the written order.
     ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
-    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in ascending
-    order. The function does not check that the series is a Lie element.
+    ``words`` contains all Lyndon words of one weight, in ascending order. It may instead contain all
+    rearrangements of one Lyndon word that are Lyndon words, in ascending order. The function does not check
+    that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
@@ -102,8 +107,8 @@ def coordinates_from_values(
 def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:
     """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
-    ``key`` defines the order of letters that Python cannot compare. Raises :class:`ValueError` if the series
-    is not a Lie element.
+    Letters are compared by their ``key``, or directly if there is no key. Raises :class:`ValueError` if
+    ``element`` is not a Lie element.
 
     >>> element = expand((("A", "B"), "A"))
     >>> {"".join(word): int(value) for word, value in lyndon_coordinates(element).items()}

@@ -1,7 +1,7 @@
 """Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and inverse dexp.
 
-The terms are multiples of basis elements of the free Lie algebra. The basis consists of bracketed Lyndon
-words, or is a Hall basis. The bracket is [x, y] = x y - y x.
+The terms are multiples of basis elements of the free Lie algebra. The user can choose the basis of bracketed
+Lyndon words or a Hall basis. The bracket is [x, y] = x y - y x.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class LieSeries:
 
 @dataclass(frozen=True)
 class LieTerm:
-    """One term of a Lie series. ``bracket`` is a letter or a nested pair of letters."""
+    """One term of a Lie series. ``bracket`` is a letter, or a pair (x, y) that denotes the bracket [x, y]."""
 
     weight: int
     bracket: Bracket
@@ -111,8 +111,10 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that maps a weight to the coordinates of a Lie element up to this weight. ``value``
-    returns the coefficient of a product of letters in the Lie element."""
+    """Return a function that maps a weight to the coordinates of a Lie element up to this weight.
+
+    The Lie element is a series of words. ``value`` returns the coefficient of a word in this series.
+    """
 
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__
@@ -159,8 +161,11 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coordinates of a series sum_k c_k ad_U^k X, where U and X are
-    letters and c_k numbers. The only Lyndon words in this series have the form U ... U X."""
+    """Return a function that computes the coordinates of a series sum_k c_k ad_U^k X.
+
+    U and X are letters, and c_0, c_1, ... are numbers. The Lyndon words in this series are X, U X, U U X, and
+    so on.
+    """
 
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)

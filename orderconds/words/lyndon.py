@@ -31,10 +31,10 @@ def lyndon_words(
     weights = [weigh(letter) for letter in letters]
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
-    # The algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A
-    # prefix of period p is extended by one letter. If the new letter equals the letter p positions earlier,
-    # the period does not change. If the new letter is greater, the new period is the length of the extended
-    # word.
+    # This is the algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
+    # lengths. A word is built letter by letter. Let p be the period of the word. If a new letter equals the
+    # letter p positions earlier, the period does not change. If the new letter is greater, the period becomes
+    # the length of the extended word.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

@@ -1,9 +1,10 @@
 """Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
 The values of these functionals determine an element of the free algebra modulo the ideal. The functionals are
-therefore coordinates on the group-like elements of the quotient. Identify functionals that differ by
-products of functionals of lower weight. The resulting classes form the dual of the Lie algebra of the
-quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+therefore coordinates on the group-like elements of the quotient. Two functionals are called equivalent if
+their difference is a combination of products of functionals of lower weight. The equivalence classes form the
+dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore,
+Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Series, Word
 
 Functional = tuple[tuple[Word, int], ...]
-"""A linear functional on words, as a linear combination of words with coprime integer coefficients. The first
-word is the name of the functional."""
+"""A linear functional on words, as pairs of a word and the value at this word. The values are coprime
+integers. The value at every other word is zero."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
     """Return a basis of the functionals on words of length ``length`` that vanish on the two-sided ideal with
     the given generators.
 
-    The first word of each functional is its name. All names are different. If possible, the names are Lyndon
-    words. No functional contains the name of another functional.
+    The first word of a functional does not occur in the other functionals. First words are Lyndon words where
+    this is possible.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -36,9 +37,10 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each row of the matrix is an element of the ideal, and each column belongs to a word. Each column
-        # without a pivot gives one functional. The word of this column is the functional's name. Pivots are
-        # chosen from the left. Lyndon words are placed at the right, so that they become names if possible.
+        # Each row of the matrix is an element of the ideal. Each column belongs to a word. A column without
+        # a pivot gives one functional. The word of the column is the first word of the functional. Pivots are
+        # chosen from the left. Lyndon words are placed at the right, where columns without a pivot are more
+        # likely.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -47,7 +49,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
     """Return a largest subset of the functionals that is linearly independent on Lie elements. Functionals
-    whose names are Lyndon words are preferred.
+    whose first word is a Lyndon word are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)
@@ -85,8 +87,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v of words u and v with a generator g. Each letter occurs in u g v as often as
-    in ``content``."""
+    """Yield the products u g v for words u and v and a generator g. All words in the product are
+    rearrangements of ``content``."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

@@ -1,10 +1,12 @@
 """Words as polynomials in Lyndon words, with the shuffle product as multiplication (Radford 1979).
 
-Every word is a product l_1^{i_1} ... l_k^{i_k} of Lyndon words l_1 > ... > l_k. The shuffle product of all
-these factors, divided by i_1! ... i_k!, equals the word plus a combination of smaller words (Reutenauer, Free
-Lie Algebras, Thm 6.1). In a product of exponentials, the coefficient of a shuffle product is the product of
-the coefficients of its factors. Hence the polynomial of a word gives the coefficient of the word in terms of
-the coefficients of Lyndon words.
+Every word is a concatenation of Lyndon words l_1 > ... > l_k, where l_j is repeated i_j times. Take the
+shuffle product of all these Lyndon words, with repetitions, and divide it by i_1! ... i_k!. The result is the
+word plus a combination of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
+
+In a product of exponentials, the coefficient of a shuffle product is the product of the coefficients of its
+factors. Hence the polynomial of a word gives the coefficient of the word in terms of the coefficients of
+Lyndon words.
 """
 
 from __future__ import annotations

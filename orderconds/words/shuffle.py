@@ -10,8 +10,8 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter is a hashable value. In Lyndon words, letters must be comparable, and all letters must have the
-same type."""
+"""A letter is a hashable value. Functions that compare letters use the operator ``<``, or a key function if
+one is given."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
