@@ -1,9 +1,9 @@
-"""Lie groups and their actions. Their operations work for floats, power series and expressions
+"""Lie groups and their actions. The arguments of their methods may be floats, power series or expressions
 (:mod:`codegen.ir.domain`).
 
-Each group has its own file, and each action has its own file in ``actions``. You can define a group or an
-action in your own module: inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and
-use the class in a scene. :func:`register` adds the class to the list of groups or to the list of actions.
+Each group has its own file, and each action has its own file in ``actions``. To define a group or an action
+in your own module, write a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`.
+A scene can use your class. :func:`register` adds your class to the list of groups or to the list of actions.
 """
 
 from __future__ import annotations
@@ -114,8 +114,8 @@ def register(cls: Registered) -> Registered:
     """Register the class of a group or the class of an action, and return the class.
 
     A group class is added to the list of groups, and an action class is added to the list of actions. The
-    function may also be used as a decorator. A scene (a problem) may also use a class that is not registered.
-    If two classes with the same name are registered, the second replaces the first. :class:`SceneError` is
+    function can be used as a decorator. A scene (a problem) can use a class without registering it. If two
+    classes with the same name are registered, the second replaces the first. :class:`SceneError` is
     raised in three cases: the class is neither a group nor an action, it does not implement all abstract
     methods, or it has the name of a class of this package.
     """

@@ -43,5 +43,8 @@ class Abelian(LeftTranslation):
         return mu
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x, the derivative of g exp(eps x) at eps = 0. In an abelian group g.x = x.g."""
+        """Return the derivative of g exp(eps x) at eps = 0.
+
+        Because the group is abelian, g exp(eps x) is equal to exp(eps x) g.
+        """
         return self.velocity(d, x, g)

@@ -1,4 +1,4 @@
-"""Left actions of groups on manifolds, one file for each action."""
+"""Left actions of groups on manifolds. Each action has its own file."""
 
 from __future__ import annotations
 

@@ -15,17 +15,17 @@ class AffineAction(Action):
 
     An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c.
 
-    For example, let L be a constant matrix in the equation z' = L z + N(z). Let the algebra contain the
-    multiples of L and all translations. Then the Lie-Euler method is the exponential Euler method. A step of
-    length h maps z to exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w.
+    For example, consider the equation z' = L z + N(z) with a constant matrix L. In a step of the Lie-Euler
+    method, c is N(z) at the beginning of the step. This is the exponential Euler method. A step of size h
+    maps z to exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w.
     """
 
     name = "affine maps"
     needs = MatrixElements
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the matrix of an algebra element has a non-zero last
-        row.
+        """Raise :class:`codegen.errors.SceneError` if a matrix of the algebra is not of the form
+        [[L, c], [0, 0]].
         """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)

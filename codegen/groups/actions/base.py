@@ -1,8 +1,8 @@
 """The base class of left actions of a group on a manifold.
 
-To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These members are
-enough for scenes (problems), emitted code and convergence tests. An action may also override the number of
-coordinates of a point, the equations of the manifold and the projection onto an orbit.
+To define an action, write a subclass of :class:`Action` with the members ``name``, ``act`` and ``velocity``.
+These members are enough for scenes (problems), emitted code and convergence tests. The methods
+``point_size``, ``laws`` and ``to_orbit`` are optional.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from codegen.ir.domain import Domain
 class Action(ABC):
     """A left action of a group on a manifold: e.y = y for the neutral element e, and (g k).y = g.(k.y).
 
-    A point y of the manifold is a flat tuple of scalars.
+    A point y of the manifold is the tuple of its coordinates.
 
     - ``name`` is printed in messages and in the headers of emitted code.
-    - ``needs`` is the class of the capability that the action needs (:mod:`codegen.groups.capabilities`).
-    - ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
+    - ``needs`` is a class of :mod:`codegen.groups.capabilities`. The group must have this capability.
+    - ``on_itself`` is true if y contains the coordinates of an element of the group.
     """
 
     name: str
@@ -52,9 +52,9 @@ class Action(ABC):
         return None
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifold, as pairs of a name and a residual.
+        """Return the equations of the manifold. Each equation is a pair (name, residual).
 
-        The residuals are computed from the coordinates y. If y is a point of the manifold, all residuals are
+        The residual is computed from the coordinates y. If y is a point of the manifold, all residuals are
         zero. By default there are no equations.
         """
         return ()
@@ -65,8 +65,9 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result and y have
-        the same number of components.
+        """Return x.y, the derivative of exp(eps x).y at eps = 0. Here x is an element of the algebra.
+
+        The result contains the derivative of each coordinate of y.
         """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
@@ -74,11 +75,13 @@ class Action(ABC):
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
 
-        By default, the method does not project, and the result is y. An open orbit needs no projection,
-        because it contains all points near each of its points.
+        By default, the result is y. This is sufficient if the orbit is an open subset of the manifold. Then a
+        point with a small error is still on the orbit.
         """
         return y
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x).y. A subclass may override this method by a formula that does not compute exp(x)."""
+        """Return exp(x).y. By default, the method computes exp(x) and applies it to y. A subclass may use a
+        cheaper formula.
+        """
         return self.act(d, group, group.exp(d, x), y)

@@ -12,9 +12,11 @@ from codegen.ir.domain import Domain
 class CoadjointAction(Action):
     """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu, as in Lie-Poisson systems.
 
-    The velocity is x.mu = -ad*_x mu. Let H(mu) be a Hamiltonian. The field f = dH/dmu gives the Lie-Poisson
-    equation mu' = -ad*_f mu. The field f = -dH/dmu gives the Lie-Poisson equation with the opposite sign. The
-    orbits are coadjoint orbits, so all Casimir functions are conserved.
+    The velocity is x.mu = -ad*_x mu. Let H(mu) be a Hamiltonian with the derivative H'(mu). For the
+    Lie-Poisson equation mu' = -ad*_{H'(mu)} mu, use the field f(mu) = H'(mu). For the Lie-Poisson equation
+    mu' = ad*_{H'(mu)} mu, use f(mu) = -H'(mu).
+
+    Casimir functions are constant on each orbit of this action. Therefore they are conserved.
     """
 
     name = "coadjoint action"
@@ -25,9 +27,9 @@ class CoadjointAction(Action):
         return group.dim
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return Ad*_{g^-1} y."""
+        """Return g.y = Ad*_{g^-1} y, where Ad* is the transpose of Ad."""
         return group.require(Coadjoint).Adtinv(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -ad*_x y."""
+        """Return x.y = -ad*_x y, where ad* is the transpose of ad."""
         return tuple(-a for a in group.require(Coadjoint).adt(d, x, y))

@@ -1,4 +1,4 @@
-"""Matrices acting on several columns at once: Stiefel and Grassmann manifolds."""
+"""The action of n x n matrices on n x k matrices by multiplication from the left."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ from codegen.ir.domain import Domain
 class Columns(Action):
     """Matrices acting on n x k matrices, g.Y = g Y.
 
-    A point is the matrix Y row by row, where k is the number of ``columns``. Y may also represent the
-    subspace that its columns span. The matrices Y with orthonormal columns form the Stiefel manifold. For
-    this manifold, use :class:`Stiefel`.
+    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``. If the
+    columns of Y stay orthonormal, use :class:`Stiefel`.
     """
 
     name = "linear maps of columns"
@@ -27,7 +26,7 @@ class Columns(Action):
         self.columns = columns
 
     def point_size(self, group: LieGroup) -> int:
-        """Return n k, the number of entries of the matrix Y."""
+        """Return n k, the number of entries of an n x k matrix."""
         return group.require(MatrixElements).order * self.columns
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

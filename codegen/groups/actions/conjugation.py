@@ -13,15 +13,16 @@ class Conjugation(Action):
     """Matrices acting on n x n matrices by g.P = g P g^-1. Toda's lattice and other isospectral flows
     use this action.
 
-    A point is a matrix row by row. The velocity is x.P = [x, P], so the eigenvalues of P are constant. If the
-    group is orthogonal and P is a symmetric projection of rank k, the orbit is a Grassmann manifold.
+    A point contains the entries of the matrix P row by row. The matrices g P g^-1 and P have the same
+    eigenvalues. If the group is SO(n) and P is an orthogonal projection of rank k, the orbit of P is a
+    Grassmann manifold.
     """
 
     name = "conjugation"
     needs = MatrixElements
 
     def point_size(self, group: LieGroup) -> int:
-        """Return n^2."""
+        """Return n^2, the number of entries of an n x n matrix."""
         return group.size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -1,4 +1,4 @@
-"""The action of one group on several manifolds at once."""
+"""The action of one group on a product of manifolds."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from codegen.ir.domain import Domain
 class DiagonalAction(Action):
     """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
 
-    A point of the product contains the coordinates of y1, then of y2, and so on, in the order of ``actions``.
-    For example, a group may act on a frame by left multiplication, and on a point by a rotation.
+    A point of the product contains the coordinates of y1, then the coordinates of y2, and so on. The first of
+    the ``actions`` acts on y1, the second acts on y2, and so on.
     """
 
     def __init__(self, *actions: Action) -> None:
@@ -25,7 +25,7 @@ class DiagonalAction(Action):
         self.name = " and ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if any of the actions cannot be used with the group.
+        """Raise :class:`codegen.errors.SceneError` if one of the actions cannot be used with the group.
 
         The error is also raised if an action does not determine the number of coordinates of its points.
         """
@@ -60,7 +60,7 @@ class DiagonalAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifolds of y1, y2, ..., with their residuals at y = (y1, y2, ...)."""
+        """Return the equations of the manifolds that contain y1, y2, ..., where y = (y1, y2, ...)."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -72,9 +72,9 @@ class DiagonalAction(Action):
         return tuple(a for action, own in self._parts(group, y) for a in action.velocity(d, group, x, own))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return (y1, y2, ...) with each point projected onto an orbit.
+        """Project y1 onto the orbit of s1, project y2 onto the orbit of s2, and so on.
 
-        The orbit is the orbit of the corresponding point in ``start``.
+        Here y = (y1, y2, ...) and start = (s1, s2, ...). The result contains the projected points.
         """
         rows = zip(self._parts(group, y), self._parts(group, start), strict=True)
         return tuple(a for (action, own), (_, first) in rows for a in action.to_orbit(d, group, own, first))

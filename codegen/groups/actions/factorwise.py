@@ -19,7 +19,7 @@ class FactorwiseAction(Action):
     """A direct product acting on a product of manifolds, (g1, g2, ...).(y1, y2, ...) = (g1.y1, g2.y2, ...).
 
     ``actions`` contains one action for each factor, in the order of the factors. A point of the product
-    contains the coordinates of y1, then of y2, and so on.
+    contains the coordinates of y1, then the coordinates of y2, and so on.
     """
 
     needs = DirectProduct
@@ -33,10 +33,10 @@ class FactorwiseAction(Action):
         self.name = " x ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the actions do not fit the factors of the group.
+        """Raise :class:`codegen.errors.SceneError` if the actions cannot be used with the group.
 
-        The number of actions must be equal to the number of factors, and each action must determine the
-        number of coordinates of its points. Otherwise the error is raised.
+        The group must be a direct product with one factor for each action. It must be possible to use each
+        action with its factor. Each action must determine the number of coordinates of its points.
         """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
@@ -76,9 +76,9 @@ class FactorwiseAction(Action):
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Call operation(action, factor, x_i, y_i) for each factor, and join the results to one tuple.
+        """Return operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), ... in one tuple.
 
-        Here x = (x_1, x_2, ...) and y = (y_1, y_2, ...) with one component for each factor.
+        Here x = (x1, x2, ...) and y = (y1, y2, ...).
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
@@ -91,7 +91,7 @@ class FactorwiseAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifolds of y1, y2, ..., with their residuals at y = (y1, y2, ...)."""
+        """Return the equations of the manifolds that contain y1, y2, ..., where y = (y1, y2, ...)."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 
@@ -108,9 +108,9 @@ class FactorwiseAction(Action):
         return self._each(group, lambda a, f, own, point: a.velocity(d, f, own, point), x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return (y1, y2, ...) with each point projected onto an orbit.
+        """Project y1 onto the orbit of s1, project y2 onto the orbit of s2, and so on.
 
-        The orbit is the orbit of the corresponding point in ``start``.
+        Here y = (y1, y2, ...) and start = (s1, s2, ...). The result contains the projected points.
         """
         rows = zip(self._pairs(group), self._split(group, y), self._split(group, start), strict=True)
         return tuple(

@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class LeftMultiplication(Action):
-    """A group acting on itself, g.y = g y. On R^n the action consists of translations."""
+    """A group acting on itself, g.y = g y. For the group R^n, this is the translation g.y = g + y."""
 
     name = "left multiplication"
     on_itself = True

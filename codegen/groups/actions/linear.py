@@ -31,16 +31,15 @@ class Linear(Action):
         return rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y scaled to the length of ``start`` if the group preserves lengths, otherwise y.
+        """If the group consists of rotations, scale y to the length of ``start``. Otherwise return y.
 
-        The factor is 1 + e/2 + 3 e^2/8 with e = 1 - (y.y)/(start.start), so the relative error of the length
-        is O(e^3).
+        Let e = 1 - (y.y)/(start.start). The exact factor is (1 - e)^(-1/2). The method uses the first terms
+        of its Taylor series, 1 + e/2 + 3 e^2/8. The relative error of the length is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, ``squared`` is zero, too. In this case the function ``quotient`` returns 0 and
-        # does not divide.
+        # If ``start`` is zero, the divisor ``squared`` is zero. Then the function ``quotient`` returns 0.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

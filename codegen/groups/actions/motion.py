@@ -10,7 +10,11 @@ from codegen.ir.domain import Domain
 
 
 class Motion(Action):
-    """Rigid motions acting on points, g.z = R z + a. SE(2) acts on the plane, and SE(3) acts on space."""
+    """Rigid motions acting on points z. The motion g rotates z by R and translates it by a: g.z = R z + a.
+    SE(2) acts on the plane, and SE(3) acts on three-dimensional space.
+
+    For a general semidirect product, g.z = R z + a with a linear map R.
+    """
 
     name = "rigid motion"
     needs = PointMotions
@@ -20,7 +24,7 @@ class Motion(Action):
         return group.require(PointMotions).point_size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return R y + a, where g is the rotation R followed by the translation by a."""
+        """Return R y + a, where g is the linear map R followed by the translation by a."""
         return group.require(PointMotions).move(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -12,10 +12,9 @@ from codegen.ir.domain import Domain
 class RightMultiplication(Action):
     """A group acting on itself from the right, g.y = y g^-1.
 
-    In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore the methods for left
-    multiplication can be used, with the same signs of brackets. The velocity is x.y = -y x.
+    Because of the inverse this is a left action: (g k).y = g.(k.y). The velocity is x.y = -y x.
 
-    To integrate the equation y' = y F(y), use the field f = -F. For example, if y is the attitude of a body,
+    To integrate the equation y' = y F(y), use the field f = -F. For example, y is the attitude of a body, and
     F(y) is the angular velocity in the body frame.
     """
 
@@ -24,7 +23,7 @@ class RightMultiplication(Action):
     on_itself = True
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group has no inverses or no adjoint map."""
+        """Raise :class:`codegen.errors.SceneError` if the group has no method for g^-1 or for Ad_g."""
         self.require(group, Inverse, where)
         self.require(group, Coadjoint, where)
 
@@ -54,6 +53,7 @@ class RightMultiplication(Action):
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))
-        # Without left translations, y x is computed as (Ad_y x).y, because y x = (y x y^-1) y.
+        # The product y x is equal to (Ad_y x) y, because Ad_y x = y x y^-1. The method ``velocity`` computes
+        # (Ad_y x) y.
         moved = group.require(Coadjoint).Ad(d, y, x)
         return tuple(-a for a in group.velocity(d, moved, y))

@@ -1,4 +1,4 @@
-"""Rotations acting on orthonormal columns: the Stiefel manifold."""
+"""The action of orthogonal matrices on the Stiefel manifold, the set of matrices with orthonormal columns."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from codegen.ir.domain import Domain, FloatDomain
 class Stiefel(Columns):
     """Orthogonal matrices acting on n x k matrices with orthonormal columns, g.Y = g Y.
 
-    A point is the matrix Y row by row, where k is the number of ``columns``.
+    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``.
     """
 
     name = "rotation of orthonormal columns"
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the columns of a point cannot stay orthonormal.
+        """Raise :class:`codegen.errors.SceneError` if the group does not preserve orthonormal columns.
 
-        The columns stay orthonormal if all matrices of the algebra are skew. The error is also raised if the
-        number of columns is greater than the number of rows.
+        This is the case if a matrix of the algebra is not skew. The error is also raised if a point has
+        more columns than rows, because its columns are then linearly dependent.
         """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
@@ -51,7 +51,10 @@ class Stiefel(Columns):
         return [[dot(a, b) for b in columns] for a in columns]
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation for each entry of Y^T Y on or below the diagonal: Y^T Y is the unit matrix."""
+        """Return the equation Y^T Y = I entry by entry, where I is the unit matrix.
+
+        The matrix Y^T Y is symmetric. Therefore the entries above the diagonal are left out.
+        """
         gram, one = self._gram(y), d.rational(1)
         return tuple(
             (f"(Y^T Y)[{i}, {j}] = {int(i == j)}", gram[i][j] - one if i == j else gram[i][j])
@@ -60,14 +63,15 @@ class Stiefel(Columns):
         )
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return Y (3 I - Y^T Y)/2 with the unit matrix I, where y contains the matrix Y row by row.
+        """Return an approximate projection of the matrix Y onto the matrices with orthonormal columns.
 
-        If Y^T Y differs from I by eps, the columns of the result are orthonormal up to O(eps^2).
+        The result is Y (3 I - Y^T Y)/2 with the unit matrix I. If eps is the norm of Y^T Y - I, the columns
+        of the result are orthonormal up to O(eps^2). The argument y contains the entries of Y row by row.
         """
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
-        # The result is computed as Y + Y E/2 with E = I - Y^T Y. Because Y E/2 is small, its rounding errors
-        # are negligible.
+        # The result is computed as Y + Y E/2 with E = I - Y^T Y. If the columns of Y are almost orthonormal,
+        # the term Y E/2 is small. Then the rounding errors of this term are negligible.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]
         return tuple(
