@@ -254,8 +254,8 @@ class _Exponential:
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let n be ``terms``, and let ``theta`` be the norm of z. The series z phi(z) = z + z^2/2! + ... ends
-        # with the term z^(n + 1)/(n + 1)!. The norm of the first omitted term is at most theta^(n + 2)/(n +
-        # 2)!, and ``bound`` is this number.
+        # with the term z^(n + 1)/(n + 1)!. The norm of the first omitted term is at most ``bound``, which is
+        # theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
