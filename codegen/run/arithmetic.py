@@ -22,13 +22,13 @@ from codegen.run.warm_start import begun
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
     """Return the statements that evaluate the kernel of ``plan``.
 
-    The statements ``after_loops`` follow the last loop that solves equations. If ``counting`` is True, the
-    emitted code counts the sweeps (iterations) of each loop.
+    The statements ``after_loops`` are inserted after the last loop that solves equations. If ``counting`` is
+    True, the emitted code counts the sweeps (iterations) of each loop.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # After the last loop, all unknowns have their final values. A kernel without loops has no unknowns, so it
-    # does not use ``after_loops``.
+    # ``last`` is the index of the last loop. After this loop all unknowns have their final values, so
+    # ``after_loops`` is inserted there. Without loops, ``last`` is -1, and nothing is inserted.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -59,13 +59,12 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # If the output is a local variable, this variable is returned. A component of the state is not
-        # returned, because the state may be overwritten before the output is read.
+        # A local variable of the kernel is returned as it is. All other outputs are assigned to new
+        # variables.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # The formulas of later outputs may read the old components of the state. The new value is therefore
-        # assigned to a new variable.
+        # The variable ``symbol`` must keep its old value, because the formulas of later outputs may read it.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -82,8 +81,7 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     The sample times of a method are, for example, t and t + h/2.
     """
     sequence: list[Statement] = []
-    # The input function may be slow, and all sweeps of a loop must use the same values. Therefore the inputs
-    # are computed before the first loop.
+    # These statements come before the first loop, so the inputs are not computed again in each sweep.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -94,8 +92,9 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return the emitted function for an outlined part of a kernel (formulas moved to their own function).
+    """Return the emitted function for an outlined part of a kernel.
 
+    An outlined part consists of formulas that are computed in a function of their own.
     A single result is returned as a value. Several results are written to an array argument.
     """
     body: list[Statement] = []
@@ -104,7 +103,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
-    # A single result is returned as a scalar, which stays in a register.
+    # A single result is returned as a scalar, so a compiler can keep it in a register.
     if len(arrangement.outputs) == 1:
         body.append(Return(value(arrangement.outputs[0])))
         return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)
@@ -123,5 +122,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function does not test its result for NaNs, because its caller tests the complete state.
+    # The function does not test its result for NaNs. The functions that call it test the state later.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -1,8 +1,8 @@
 """Build the loops for assignments of whole matrices (:mod:`codegen.ir.array_program`).
 
 The length of the emitted code does not depend on the size of the matrices. A product of matrices is computed
-in blocks with two rows and four columns. The eight entries of a block are independent sums, and a processor
-can compute them at the same time.
+in blocks with two rows and four columns. The eight sums for the entries of a block do not depend on each
+other, so a processor can compute them at the same time.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
 """A function that yields the statements for a group of columns.
 
-Its arguments are the first column of the group and the number of columns. None as the first column means
-column 0.
+The first argument is the first column of the group. If it is None, the group begins at column 0. The second
+argument is the number of columns.
 """
 
 
@@ -51,8 +51,8 @@ column 0.
 class ArrayLoops:
     """Writes assignments of matrices as loops.
 
-    ``arrays`` maps names of matrices to arrays. A matrix that is not in ``arrays`` has an array with its own
-    name.
+    ``arrays`` maps names of matrices to arrays. If ``arrays`` does not contain a matrix, the
+    name of its array is the name of the matrix.
     """
 
     arrays: dict[str, Term]
@@ -60,8 +60,8 @@ class ArrayLoops:
     def array(self, matrix: Matrix, size: int = 0) -> Term:
         """Return the array that contains a matrix.
 
-        If the matrix is not in ``arrays``, the array has the name of the matrix and ``size`` entries. With
-        ``size`` = 0, the array has as many entries as the matrix.
+        If the matrix is not in ``arrays``, the array has the name of the matrix. It has ``size`` entries. If
+        ``size`` is 0, it has as many entries as the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
@@ -175,15 +175,15 @@ class ArrayLoops:
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
         """Return the entry at ``place`` of a weighted sum of matrices."""
-        # ``terms`` contains only matrices with the shape of the target. If there are none, the entry is zero.
-        # Smaller matrices are added later, in loops of their own.
+        # ``terms`` contains only the matrices with the shape of the target. The list may be empty, and then
+        # the entry is zero.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry at ``place`` of a term of a sum. The term is a matrix or its transpose."""
+        """Return the entry at ``place`` of ``term``, which is a matrix or the transpose of a matrix."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -216,7 +216,7 @@ class ArrayLoops:
             return None, []
         if c.op in ("const", "sym"):
             return value(c), []
-        # The coefficient is computed once, before the loop.
+        # The coefficient is computed once, before the loop over the matrix entries.
         return own(name), [Assign(own(name), value(c))]
 
     def applied(self, a: Apply) -> Iterator[Statement]:
@@ -225,8 +225,9 @@ class ArrayLoops:
         if not c.diagonals:
             yield from self.applied_full(a)
             return
-        # The first stored diagonal assigns rows of the target, and later diagonals add to these rows. If the
-        # first diagonal does not reach every row, the target is first set to zero.
+        # The loop for the first stored diagonal assigns values to rows of the target. The loops for the other
+        # diagonals add numbers to rows. If the first loop may miss a row, the target is set to zero
+        # beforehand.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
@@ -235,17 +236,16 @@ class ArrayLoops:
             # The entry in row i and column j of a matrix is in row j and column i of its transpose.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
-            # The entry multiplies a whole row. It is assigned to a variable, so that its formula is evaluated
-            # only once.
+            # Each number of a row is multiplied by the same entry. The entry is assigned to a variable, so
+            # that its formula is evaluated only once.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that yields the statements for row ``row`` and a group of columns of the target.
+        """Return a function that yields statements for a group of columns.
 
-        :data:`_ENTRY` is the entry of the constant matrix in row ``row`` and column ``column``. It is
-        multiplied by row ``column`` of ``a.matrix``. If ``added`` is True, the products are added to the old
-        entries of the target.
+        The statements multiply the row ``a.matrix[column]`` by the number :data:`_ENTRY`, and assign the
+        product to the row ``a.target[row]``. If ``added`` is True, the product is added to this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -259,8 +259,8 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product of a full constant matrix (left) and a variable matrix (right)."""
         c = a.constant
-        # The loop over rows of the target has the index _ROW, and the sum has the index _TERM. If the
-        # constant matrix is transposed, the indices of its entries are exchanged.
+        # Each entry of the target in row _ROW is a sum over the index _TERM. In each term, one factor is the
+        # entry of the constant matrix in row i and column j.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -269,9 +269,8 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # A formula for entries reads the row and the column as reals. The statements ``before``
-                # convert them. They are executed for each term of the sum, because the row or the column
-                # changes.
+                # The statements ``before`` convert the row and the column of the entry to reals. They are
+                # part of the loop over the terms, because each term has another entry.
                 before=before,
             )
 
@@ -280,13 +279,12 @@ class ArrayLoops:
     def applied_from_right(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product of a variable matrix (left) and a constant matrix (right)."""
         c, target = a.constant, a.target
-        # Each entry of the constant matrix adds a multiple of one column to a column of the target, so the
-        # target begins at zero.
+        # The target is set to zero, because the loops below only add numbers to it.
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
-            # Let r be the row of the entry in the constant matrix, and c its column. The entry multiplies
-            # column r of the variable matrix. The product is added to column c of the target.
+            # The entry of the constant matrix is multiplied by column ``row`` of the variable matrix. The
+            # product is added to column ``column`` of the target.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -306,7 +304,7 @@ class ArrayLoops:
 class _Place:
     """The position of an entry in a matrix: a row and a column.
 
-    If ``column`` is None, ``row`` is not a row. It is then the number of the entry, counted row by row.
+    If ``column`` is None, ``row`` contains the number of the entry, counted row by row from 0.
     """
 
     row: Term
@@ -316,11 +314,11 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return an entry of a constant matrix, and the statements that must be executed before it is read.
+    """Return a list of statements and an entry of a constant matrix.
 
-    The statements come first in the returned pair. If the entries are numbers, there are no statements, and
-    the entry is read from the table ``table`` at ``place``. If the entries are given by a formula, the
-    statements convert the row and the column to reals, because the formula reads them as reals.
+    The statements must be executed before the entry is read. If the entries are numbers, the list is empty,
+    and the entry is read from the table ``table`` at ``place``. If the entries are given by a formula, the
+    statements convert the row and the column to reals for the formula.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
@@ -339,8 +337,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # ``constants`` may contain several matrices with the same name, one for each stage time. Numbers do not
-    # depend on the time, so one table is enough for these matrices.
+    # Matrices with the same name differ only in the stage time. Their entries depend on the time only if they
+    # are formulas. Therefore one table is enough for each name.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -352,33 +350,36 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
-            # Only a tuple of numbers needs a table. ``entry`` may also be a formula. If the matrix is stored
-            # by diagonals, ``c.full`` is an empty tuple.
+            # A formula needs no table. An empty tuple needs no table either. ``c.full`` is empty if the
+            # matrix is stored by diagonals.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
 
 def _sum(offset: int) -> str:
-    """Return the index i + ``offset`` as text for a comment, for example ``i - 2``."""
+    """Return the text of the column index i + ``offset``. For the offset -2 it is ``i - 2``."""
     return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
-    # ``entries`` are exact numbers. They are rounded only here, so each has a single rounding error.
+    # ``entries`` are exact numbers. Each number is rounded only once, in this function.
     return tuple(map(precision.round, entries))
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements for ``columns`` columns, in groups of :data:`GROUP` columns."""
+    """Yield the statements of ``group`` for all columns of a matrix with ``columns`` columns.
+
+    Each group has :data:`GROUP` columns. The last group may have fewer columns.
+    """
     groups, rest = divmod(columns, GROUP)
-    # A single group needs no loop over groups, so the indices of its columns are constants.
+    # A single group begins at column 0. It needs no loop, and its column indices are constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
         first, number_of = count("first_column"), count("group")
         yield For(number_of, whole(groups), (Assign(first, GROUP * number_of), *group(first, GROUP)))
     if rest:
-        # The last columns form a smaller group.
+        # If the number of columns is not a multiple of GROUP, the remaining columns form a smaller group.
         yield from group(whole(GROUP * groups) if groups else None, rest)
 
 
@@ -418,12 +419,12 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
 
 
 def _is_whole(matrix: Matrix) -> bool:
-    """Return True if the array of a matrix has no gap between the rows of the matrix."""
+    """Return True if the rows of a matrix are stored one after another, without gaps."""
     return matrix.step == matrix.columns
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if every row of a constant matrix has an entry on the first stored diagonal."""
+    """Return True if a constant matrix is square, and its first stored diagonal is the main diagonal."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -434,10 +435,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return the sum of ``total`` and the product of ``entry`` and the coefficient of ``term``.
+    """Return ``total`` plus the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, the result is the product alone. ``weight`` is the coefficient. It is None if the
-    coefficient is 1 or -1, because no multiplication is needed then.
+    If ``total`` is None, nothing is added to the product. ``weight`` is the coefficient as a value of the
+    emitted code. ``weight`` is None if the coefficient is 1 or -1.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -58,19 +58,20 @@ RECIPROCALS = "reciprocal"
 MOST_PARTS = 2**20
 """The largest number of equal factors into which a matrix exponential is split.
 
-The number of factors is doubled until the exponent of each factor has a norm of at most 1."""
+The number of factors is doubled until the exponent of each factor has a norm of at most 1, or until the
+largest number is reached."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # A ``Move`` applies a matrix exponential to a point. Moves with arrays of equal sizes have the same name
-    # and call the same function.
+    # A ``Move`` multiplies a matrix exponential by a point. ``moves`` maps the name of each emitted function
+    # to one of the moves that call this function.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # The code of the function depends on the sizes of the arrays, so moves with the same name must have
-        # arrays of the same sizes.
+        # The sizes of the arrays are constants in an emitted function. Therefore all moves that call it must
+        # have arrays of the same sizes.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -84,9 +85,10 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function that executes a move. A move applies a matrix exponential to a point.
+    """Return the name of the function that multiplies the matrix exponential of a move by a point.
 
-    Moves whose arrays have different sizes call different functions.
+    The name contains the number of rows of the core. If there is a start point, the name also contains its
+    number of rows. An example is ``exponential4_from2``.
     """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
@@ -143,12 +145,12 @@ def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement
 
 
 def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
-    """Return the declarations of the local arrays. The arrays are also added to ``loops``."""
+    """Return the declarations of the local arrays, and add the arrays to ``loops``."""
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # The target of a statement is a whole array or a block of an array. The array must be large enough
-        # for the last entry of each of its blocks.
+        # Several statements may assign to different blocks of one array. ``end`` is the size that the array
+        # needs for the block of this statement.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -164,7 +166,7 @@ def _call(move: Move, loops: ArrayLoops) -> Call:
 
 @dataclass
 class _Exponential:
-    """Builds the function that applies a matrix exponential to a point, an n x k matrix."""
+    """Builds the function that multiplies a matrix exponential by a point. A point is an n x k matrix."""
 
     name: str
     move: Move
@@ -174,13 +176,12 @@ class _Exponential:
         """Return the function that computes the displacement of exp(B S B^T) X.
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
-        (:mod:`codegen.ir.array_step`). Let X_0 be the state at the beginning of the step, an n x k matrix.
-        Each point X of the step is equal to X_0 + B D. The matrix D is called the displacement of X.
+        (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
+        The displacement of a point X is the matrix D with X = X_0 + B D.
 
-        The first k columns of B are X_0. Therefore X is also equal to B C. The matrix C is obtained from D:
-        the k x k unit matrix is added to the first k rows. The displacement of exp(B S B^T) X is
-        D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent B S B^T exceeds 1, the
-        exponential is computed as a product of equal factors.
+        The first k columns of B are X_0. Let C be the sum of D and the first k columns of the unit matrix.
+        Then X = B C. The displacement of exp(B S B^T) X is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
+        If the norm of B S B^T exceeds 1, the exponential is computed as a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -189,8 +190,7 @@ class _Exponential:
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
         # ``matrix`` is the product of the Gram matrix and the core. ``total`` is the sum of a series of
-        # matrices, and ``term`` is its current term. ``next`` is a product that contains ``term`` or
-        # ``total`` as a factor.
+        # matrices. ``term`` is the current term of the series. ``next`` stores intermediate products.
         self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -213,19 +213,19 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # The core is an m x m matrix, so only the first m rows and columns of the Gram matrix are needed.
+        # The core is an m x m matrix. It is multiplied by the first m rows and columns of the Gram matrix.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
         # Let M be ``matrix``. The trace of M^2 is the sum of M_ij M_ji over all i and j. The indices (i, j)
         # and (j, i) give the same product. Therefore only the products with j < i are summed, and their sum
-        # is doubled. Each row has its own sum, so that the rows do not wait for each other.
+        # is doubled. The sums of different rows do not depend on each other.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The exponent E is skew, and the square of its Frobenius norm is -trace(M^2). This number is
-        # ``square``. The eigenvalues of E form pairs with equal absolute values. Therefore the square of the
-        # spectral norm of E is at most half of ``square``.
+        # The loop sets ``square`` to -trace(M^2), where M is ``matrix``. This is the square of the Frobenius
+        # norm of the exponent B S B^T, because the exponent is skew. Its eigenvalues form pairs with equal
+        # absolute values. Therefore the square of its spectral norm is at most half of ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         # Rounding may make the square slightly negative. The norm is then set to zero. If the square is a
         # NaN, ``square - square`` is a NaN too, so the NaN is not lost.
@@ -248,15 +248,14 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute how many terms of the series of phi are needed.
+        """Yield the statements that compute ``terms``, the number of terms in the series of phi.
 
-        The constant term 1 of the series is not counted. ``size`` is the norm of the exponent.
+        The constant term 1 is not counted. ``size`` is the norm of the exponent.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let n be ``terms``. The series phi(z) = 1 + z/2! + z^2/3! + ... ends with the term z^n/(n + 1)!. If
-        # the norm of z is ``theta``, the first omitted term is at most theta^(n + 1)/(n + 2)!. The result
-        # contains the product of phi(z) and the exponent z. The omitted term changes this product by at most
-        # theta^(n + 2)/(n + 2)!. This number is ``bound``.
+        # Let n be ``terms``, and let ``theta`` be the norm of z. The series z phi(z) = z + z^2/2! + ... ends
+        # with the term z^(n + 1)/(n + 1)!. The norm of the first omitted term is at most ``bound``, which is
+        # theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -268,9 +267,10 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to its first value.
+        """Yield the statements that set the displacement to its initial value.
 
-        This value is the matrix ``start``, extended by rows of zeros. It is zero if ``start`` is None.
+        The initial value is ``start``, extended by rows of zeros. If ``start`` is None, the initial value is
+        the zero matrix.
         """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
@@ -283,33 +283,33 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # ``total`` is set to the product of B^T and the current point X_0 + B D. The matrix X_0 consists of
-        # the first k columns of B. Therefore B^T X_0 consists of the first k columns of G = B^T B. These
-        # columns are copied first, and then the product G D is added.
+        # Let X = X_0 + B D be the current point, and let G be B^T B. The following statements set ``total``
+        # to B^T X = B^T X_0 + G D. The first k columns of B are X_0, so B^T X_0 is copied from the first k
+        # columns of G.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If ``start`` is None, D is zero in the first iteration of the loop over ``part``. The product G D is
-        # then added only in the later iterations.
+        # The product G D is added. If ``start`` is None, D is zero for the first factor (``part`` = 0), so
+        # the product is not computed for this factor.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # The terms of phi(z) are z^j/(j + 1)!. Term j is term j - 1 times z/(j + 1). Here z is ``scale``
-        # times G S.
+        # The terms of the series phi(z) B^T X are z^j/(j + 1)! B^T X. Here z is ``scale`` times G S. Term j
+        # is z/(j + 1) times term j - 1.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        # ``total`` is now the sum of the series. The core is multiplied by ``total``. The product times
-        # ``scale`` is added to the displacement.
+        # ``total`` is now the sum of the series. The matrix ``next`` is set to the product of the core and
+        # ``total``. Then ``scale`` times ``next`` is added to the displacement.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

@@ -3,13 +3,13 @@
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
 In an array of the batch, component k of lane i has the index ``k * stride + i``.
 
-An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
-instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near zero. For
-all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for this
-lane. In all other lanes the loop has the same roundings as the scalar step.
+An explicit kernel is evaluated by one loop over many lanes. The loop has no branches, so compilers can use
+vector instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near
+zero. For all other arguments they return NaN. If a NaN occurs in a lane, the scalar step is called for this
+lane. In all other lanes the loop has the same rounding errors as the scalar step.
 
-If a step solves equations, or calls a function that needs branches, no such loop is possible. Each lane is
-then a separate run. The function :func:`obstacle` lists all these cases.
+A loop without branches is not possible, for example, if a step solves equations. The function ``run`` is then
+called for each lane. The function :func:`obstacle` returns the reason.
 """
 
 from __future__ import annotations
@@ -59,15 +59,20 @@ from codegen.run.trajectory import Rows
 from codegen.run.values import simple
 
 BATCH, LANES = "run_batch", "advance_lanes"
-"""The name of the public function, and the name of the function that makes one step of many lanes."""
+"""The names of two emitted functions.
+
+``BATCH`` is the public function that runs a batch. ``LANES`` is the function that makes one step of many
+lanes."""
 
 BLOCK = 128
-"""The number of lanes in a block. The states of a block fit in the cache.
+"""The number of lanes in a block.
 
-The lanes of a block make all their steps before the next block begins."""
+A block makes all its steps in one loop, so that the states of its lanes stay in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The functions, besides the Stumpff functions, that can be computed without branches."""
+"""The names of functions that need no branches, so the loop over lanes may call them.
+
+The loop may also call the Stumpff functions, which are not listed here."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 # In a loop over a block, ``_LANE`` is the index of a lane in the block, and ``_PLACE`` is the index of the
@@ -96,7 +101,7 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return '' if one loop can advance all lanes. Otherwise return the reason why this is not possible."""
     kernel = plan.kernel
-    # The iterations of different lanes converge after different numbers of sweeps.
+    # Equations are solved by iteration. One lane may need more sweeps (iterations) than another lane.
     if kernel.loops:
         return "the lanes need different numbers of sweeps to solve their equations"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
@@ -149,12 +154,12 @@ def complete(name: str) -> str:
 
 
 def _entry(array: Term, row: int, place: Term) -> Term:
-    """Return entry ``place`` of row ``row`` in an array whose rows have ``stride`` numbers each."""
+    """Return the entry of ``array`` with the index ``row * stride + place``."""
     return array[row * STRIDE + place] if row else array[place]
 
 
 def _advance_lanes(plan: Plan) -> Function:
-    """Return the function that makes one step of many lanes, without branches."""
+    """Return the function that makes one step of many lanes. Its loop over lanes has no branches."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
     # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
     before, inside = _split(plan)
@@ -167,8 +172,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The test covers the new state, and the components of the old state that the kernel does not read. The
-    # difference ``x - x`` is 0 if x is finite. Otherwise it is NaN.
+    # All values x of the new state must be finite. If the kernel does not read a component of the old state,
+    # this component must be finite, too. The difference x - x is 0 if x is finite. Otherwise it is NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -177,8 +182,8 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # For a lane that stopped earlier, ``stopped`` contains the number 1, so ``check`` is 1 or NaN. The
-        # lane then keeps its state.
+        # If a lane stopped in an earlier step, its entry of ``stopped`` is 1. Then ``check`` is 1 or NaN, and
+        # the lane keeps its state.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
             # A selection between the new and the old value is used, because a branch would prevent vector
@@ -205,7 +210,11 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return two lists: the kernel's statements that depend only on t and h, and all its other statements."""
+    """Return two lists of the statements of the kernel.
+
+    The statements of the first list have the same results in all lanes, because they depend only on the time
+    and the step size. The second list contains all other statements.
+    """
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
@@ -226,7 +235,7 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
     flag = Term("name", (), Kind.FLAG, bad.text)
     first = select(flag, code(BAD_STEP), code(OK))
     body: list[Statement] = [
-        # A batch without steps does not read the step size.
+        # The step size is tested only if the batch makes at least one step.
         Assign(flag, both(STEPS > 0, negated(is_finite(STEP)))),
         # Every lane gets a status, even if the batch makes no step.
         For(_LANE, _TOTAL, (Assign(statuses[_LANE], first), Assign(ended[_LANE], whole(0)))),
@@ -251,8 +260,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
 
 def _gathered(plan: Plan) -> list[Statement]:
     """Return the statements that copy the state and the inputs of one lane to contiguous arrays."""
-    # The scalar step needs contiguous arrays. In the arrays of the batch, successive components of a lane are
-    # ``stride`` places apart.
+    # The scalar step reads the components of a state from adjacent places of an array. In a batch, the
+    # components of a lane are not adjacent, so they are copied.
     alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
     rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
     if plan.kernel.inputs:
@@ -299,7 +308,7 @@ def _one_by_one(plan: Plan) -> list[Statement]:
 
 
 def _blocks(plan: Plan) -> list[Statement]:
-    """Return the loops over blocks of lanes and over steps."""
+    """Return the loop over blocks of lanes. The body of the loop makes all steps of one block."""
     stopped, failed = real(_STOPPED, BLOCK), real(_FAILED, BLOCK)
     statuses, ended = _statuses(), count("completed", 0)
     block = count("block")
@@ -311,7 +320,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # If the scalar step fails as well, the lane stops. It has then completed ``_DONE`` steps.
+    # If the scalar step fails, the lane stops after ``_DONE`` completed steps.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),
