@@ -87,8 +87,8 @@ def polynomials(
     ring.
 
     If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials. Raises
-    :class:`~orderconds.errors.InputError` if the number of stages does not determine which coefficients a
-    method of the family has.
+    :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
+    the family.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

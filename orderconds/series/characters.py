@@ -69,8 +69,8 @@ class Character:
         return self._known[forest]
 
     def then(self, other: Character) -> Character:
-        """Return the composition: this step, followed by the step ``other``, both of size h (HLW III.1.4,
-        Theorem 1.10).
+        """Return the composition of two steps of size h: this step acts first, and the step ``other`` acts
+        second (HLW III.1.4, Theorem 1.10).
 
         For ordered forests, left admissible cuts are used (Munthe-Kaas and Wright 2008, Theorem 5).
         """

@@ -1,13 +1,14 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
 A series has one coefficient for each ordered forest. A forest is a word of ordered trees, and its first tree
-acts first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients
-x_J(t). The coefficient of a word t_1 ... t_n in g is
+acts first. Let the exponents X_1, ..., X_m be linear combinations of trees, where x_J(t) is the coefficient
+of the tree t in X_J. In the product exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. The coefficient of
+a word t_1 ... t_n in this product is the sum, over all indices J_1 <= ... <= J_n, of
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!.
+x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
-A run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*, IV.8).
+A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
+(Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The argument of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
+"""The exponent of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
 coefficients are omitted."""
 
 
@@ -39,9 +40,8 @@ class ExponentialsSeries:
 
     The product of the exponentials in ``stages[i]`` maps y0 to the point at which stage i evaluates the
     vector field. The product of the exponentials in ``update`` maps y0 to the result of the step. Each
-    exponential is given by its exponent: pairs (index of a stage, coefficient of the stage value). The first
-    exponential acts first. The method may be implicit. If several products begin with the same exponentials,
-    their common partial product is computed once.
+    exponential is given by its exponent, a list of pairs (index of a stage, coefficient of the stage value).
+    In each product, the exponential with index 0 acts first. The method may be implicit.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -146,8 +146,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each exponential in ``_rows``. None denotes a
-        coefficient that is proved to be zero."""
+        """Return the coefficients of a tree in the different exponents of the method. An entry is None if
+        the ring can prove that the coefficient is zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero

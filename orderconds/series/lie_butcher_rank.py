@@ -33,12 +33,15 @@ dependences improbable."""
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return the forests whose conditions are independent. ``candidates`` contains a sequence of forests for
-    each order 1, 2, .... Earlier forests of a sequence are preferred.
+    """Return the forests whose order conditions are independent, as one tuple for each order. ``candidates``
+    contains a sequence of forests for each order 1, 2, .... If conditions of the same order are dependent,
+    the forests at the beginning of the sequence are preferred.
 
-    The forests are selected modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the
-    larger of the two selected sets is returned. If ``with_exact_flow`` is false, the right-hand sides of the
-    conditions are ignored, and only the left-hand sides are tested for independence.
+    The order condition of a forest is: its coefficients in the method and in the exact flow are equal. If
+    ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
+
+    The forests are selected modulo two primes, and the larger selection is returned. A selection modulo a
+    prime can be too small, because a rank modulo a prime is at most the rank over Q.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -55,8 +58,9 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # There is one matrix for each order, with one row for each sample. Its rank is at most the number of
-    # ordered forests of this order. The number of samples must exceed the rank for the highest order.
+    # Each order has a matrix with one row for each sample. The rank of the matrix is at most the number of
+    # ordered forests of this order. This bound is largest for the highest order. The number of samples must
+    # exceed the largest bound.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

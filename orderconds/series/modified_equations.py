@@ -44,8 +44,8 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the coefficients of the field. This function may use the
-        coefficients of smaller trees."""
+        """Set the function ``value``, which maps a tree or forest to its coefficient in the field. To compute
+        the coefficient of a tree, ``value`` may use the coefficients of smaller trees in this field."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
@@ -73,9 +73,12 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return (L^(n-1) b)(forest), where b maps a tree or forest to its coefficient in this vector field.
-        For any map c, (L c)(forest) is the sum of b(component) c(rest) over all ways to cut off one
-        component."""
+        """Return the value of the function L^(n-1) b for a tree or forest. The function b maps a tree or
+        forest to its coefficient in this vector field.
+
+        The linear map L turns a function c into the function L c. The value (L c)(forest) is the sum of
+        b(component) c(rest) over all cuts that remove one component and leave a non-empty rest.
+        """
         if n == 1:
             return self(forest)
         if n > len(forest):

@@ -145,8 +145,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """A map of words of ordered trees. It extends the replacement of the vector field f by ``field``. The
-    image of a word is a linear combination of forests with at most a given number of vertices."""
+    """A map that replaces the vector field f by ``field`` in words of ordered trees. The image of a word is a
+    linear combination of forests. Forests with more vertices than a given number are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

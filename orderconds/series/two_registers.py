@@ -68,8 +68,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 def on_vector_space(word: str) -> dict[Forest, int]:
     """Return the differential operator that a word denotes on a vector space. The letters of the word are K
-    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. The trees are
-    canonical, and a forest contains them in descending order.
+    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. Each forest has
+    the order of branches and of trees that :func:`unordered` returns.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -113,8 +113,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices whose elementary weights are independent for two-register
-    (2N) schemes. The weights of these trees and of smaller trees determine the weights of all trees with
+    """Return a selection of the rooted trees with ``order`` vertices. For two-register (2N) schemes, the
+    elementary weights of the selected trees and of smaller trees determine the weights of all trees with
     ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
@@ -155,13 +155,14 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
                 raise ValueError(
-                    f"a coefficient of order {order} is not a linear combination of values of rooted forests"
+                    f"a coefficient of order {order} is not a linear combination of products of elementary"
+                    " weights"
                 )
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(
-            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of values of"
-            " rooted forests"
+            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of products of"
+            " elementary weights"
         )
     return {forest: relations[forest] for forest in ordered}
 
@@ -197,8 +198,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. The result is a sum. In each term, a derivative along
-    the vector field f replaces one derivative along the register k."""
+    """Apply the letter K to a product of derivatives. The result is a sum with one term for each derivative
+    along the register k. In this term, the derivative along the vector field f replaces that derivative."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -208,8 +209,9 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum with one term for each factor P of ``product`` that is not None. In this term, ``act(P)``
-    replaces the factor P. The function ``act`` is :func:`_drift` or :func:`_kick`."""
+    """Apply ``act`` inside the factors of a product of derivatives. ``act`` is :func:`_drift` or
+    :func:`_kick`. The result is a sum. In each term, ``act(P)`` replaces one factor P. Factors None are not
+    replaced."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

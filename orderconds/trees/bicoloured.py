@@ -22,8 +22,10 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). Trees
-    with a black root come first.
+    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). The
+    trees with a black root come before the trees with a white root.
+
+    In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']

@@ -11,8 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of total weight 1, 2, ..., n. Entry k - 1 of ``counts`` is the number
-    of different elements of weight k, and n is the length of ``counts``.
+    """Return the numbers of multisets of elements that have weights. Entry k - 1 of ``counts`` is the number
+    of different elements of weight k. Entry k - 1 of the result is the number of multisets of total weight k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -94,7 +94,8 @@ def alternating_free_tree_count(vertices: int) -> int:
 
 
 def _in_equal_halves(vertices: int) -> int:
-    """Return the number of free trees that an edge divides into two equal rooted trees."""
+    """Return the number of free trees that consist of two equal rooted trees and an edge between the two
+    roots."""
     return rooted_tree_count(vertices // 2) if vertices % 2 == 0 else 0
 
 
