@@ -114,8 +114,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficients of words v k_j w in dexpinv_{(r),u_j} k_j, one coefficient for each stage j.
-        Return None if all coefficients are zero.
+        """Return the coefficients of the words v k_j w in dexpinv_{(r),u_j} k_j for all stages j. Return None
+        if all coefficients are zero.
 
         Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The series
         dexpinv is truncated after the power r. The word v is ``start`` and has ``before`` letters. The word w
@@ -161,8 +161,8 @@ class DexpinvSeries:
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``, as triples (q, m, n).
 
-    For k = m + n, the coefficient q is B_k/k! comb(k, m) (-1)^m with the Bernoulli number B_k. Terms with B_k
-    = 0 are omitted.
+    Let k = m + n. The coefficient is q = (-1)^m B_k / (m! n!), where B_k is a Bernoulli number. Terms with
+    B_k = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -175,7 +175,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache has no limit, because each number is computed from all earlier numbers.
+@cache  # The cache keeps all numbers, because each number is computed from all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 

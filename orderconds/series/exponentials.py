@@ -55,8 +55,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over r. In term r, exp(X_J) contributes the last r letters of the
-                # word. Earlier exponentials contribute all other letters.
+                # The coefficient is a sum over r. In term r, the last r letters of the word come from
+                # exp(X_J). All other letters come from exp(X_0), ..., exp(X_(J-1)).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -56,9 +56,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """A triple for each non-empty partial product of exponentials. The triple contains the index of the
-        partial product, the index of the partial product without its last exponential, and the index of the
-        last exponential in ``_rows``."""
+        """Triples (product, shorter, last), one for each non-empty partial product of exponentials. Without
+        its last exponential, the partial product with index ``product`` is the partial product with index
+        ``shorter``. The exponent of the last exponential is ``_rows[last]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -121,14 +121,14 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in the partial products that ``places`` lists. The
-        entries of all other partial products are zero. The format of ``places`` is described at
-        ``self._places``."""
+        """Return a list with one entry for each partial product. For the partial products in ``places``, the
+        entry is the coefficient of ``word``, which must not be empty. All other entries are zero. The format of ``places`` is
+        described at ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The coefficient in a partial product is a sum over r. In term r, the last exponential of the partial
-        # product contributes the last r letters of the word. Earlier exponentials contribute all other
-        # letters.
+        # The coefficient in a partial product is a sum over r. In term r, the last r letters of the word come
+        # from the last exponential of the partial product. All other letters come from the other
+        # exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -166,9 +166,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. For a tree t_l, let c_l(s) be the coefficient,
-    in g(s), of the forest of its branches. Then the coefficient of the forest t_1 ... t_n in g(1) is the
-    integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. The branches of a tree t_l form a forest. Let
+    c_l(s) be the coefficient of this forest in g(s). Then the coefficient of the forest t_1 ... t_n in g(1)
+    is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -185,7 +185,7 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
     forests w = t_1 ... t_k, where |w| is the number of vertices. The elements F(t) of the Lie algebra are
     defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the derivative
-    along the fixed element F(t_l).
+    along the vector field y' = F(t_l) y, in which F(t_l) is constant.
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

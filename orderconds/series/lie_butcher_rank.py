@@ -2,10 +2,10 @@
 conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
 independent.
 
-A condition is superfluous if simpler conditions imply it. The left-hand side of a superfluous condition is a
-linear combination of simpler left-hand sides and of products of left-hand sides of lower order. The
-right-hand sides of the conditions satisfy the same relation. They are the values of the exact flow. In the
-matrix, the exact flow is therefore treated like a random method.
+A condition is superfluous if simpler conditions imply it. This is the case if its left-hand side is a linear
+combination of simpler left-hand sides and of products of left-hand sides of lower order. The right-hand sides
+must satisfy the same linear relation. The right-hand sides are the values of the exact flow, so one row
+of the matrix contains these values.
 """
 
 from __future__ import annotations
@@ -22,8 +22,9 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns one series for many random methods of a family. Each value of the series is a
-vector with one residue for each method (sample)."""
+"""A function that computes with many random methods of a family at the same time. The methods are called
+samples. The function returns one series. Each coefficient of the series is a vector with one number modulo a
+prime for each sample."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental
