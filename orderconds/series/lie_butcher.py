@@ -122,8 +122,8 @@ class ExponentialsSeries:
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
         """Return a list with one entry for each partial product. For the partial products in ``places``, the
-        entry is the coefficient of ``word``, which must not be empty. All other entries are zero. The format of ``places`` is
-        described at ``self._places``."""
+        entry is the coefficient of ``word``, which must not be empty. All other entries are zero. The
+        format of ``places`` is described at ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The coefficient in a partial product is a sum over r. In term r, the last r letters of the word come
