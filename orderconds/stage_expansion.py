@@ -35,8 +35,9 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     stages.
 
     If ``explicit`` is true, only the strictly lower triangular entries of A are variables. If ``explicit`` is
-    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if a coefficient of the
-    family has an index that is not a stage, or if there are more than :data:`MAX_TERMS` terms.
+    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if the number of
+    stages does not determine the coefficients of the family, or if there are too many terms
+    (:data:`MAX_COMPUTED`, :data:`MAX_TERMS`).
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -60,10 +61,11 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 
 
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
-    """Return an upper bound for the total number of terms of the expanded conditions.
+    """Return an estimate of the total number of terms of the expanded conditions.
 
-    A tree with n vertices gives one term for each choice of n stage indices. In an explicit method, two
-    neighbouring vertices have only stages * (stages - 1)/2 possible pairs of indices, instead of stages^2.
+    In the expanded condition of a tree, each vertex has a stage index. For implicit methods, every index has
+    ``stages`` values. For explicit methods, the index decreases along each edge from the root. Each
+    vertex except the root is therefore counted with only (stages - 1)/2 values.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)
@@ -87,8 +89,8 @@ def polynomials(
     ring.
 
     If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials. Raises
-    :class:`~orderconds.errors.InputError` if the number of stages does not determine which coefficients a
-    method of the family has.
+    :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
+    the family.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)
@@ -107,8 +109,8 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Return a polynomial as a formula. Each term is a pair: the exponents and the coefficient. Entry k of
-    the exponents is the exponent of ``symbols[k]``."""
+    """Return a polynomial as a formula. Each term is a pair (exponents, coefficient), where ``exponents[k]``
+    is the exponent of ``symbols[k]``."""
     return Total(
         tuple(
             (

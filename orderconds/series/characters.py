@@ -1,15 +1,15 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
 A step is represented by its series, which has one coefficient for each tree or forest. The function that
-returns the coefficient is called a character. The coefficient of the empty forest is 1. The cuts of a tree or
-forest (:mod:`orderconds.series.cuts`) may have several components. The coefficient of several components is
-the product of the coefficients of the single components.
+maps a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1. A
+cut of a tree or forest (:mod:`orderconds.series.cuts`) may have several components. Their coefficients are
+multiplied.
 
-A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
-are the values before and after a step of size h, and F(t) is the elementary differential of the tree t. The
-number of vertices is |t|, and the order of the symmetry group is sigma(t). A Lie-Butcher series is a function
-of ordered forests (:mod:`orderconds.series.lie_butcher`). HLW denotes Hairer, Lubich and Wanner, *Geometric
-Numerical Integration*.
+A B-series has a coefficient a(t) for each canonical rooted tree t. The series is y1 = y0 + sum_t h^|t|
+a(t)/sigma(t) F(t), where y0 and y1 are the values before and after a step of size h. Here |t| is the number
+of vertices, sigma(t) is the order of the symmetry group, and F(t) is the elementary differential. A
+Lie-Butcher series has a coefficient for each ordered forest (:mod:`orderconds.series.lie_butcher`). HLW
+denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -69,8 +69,8 @@ class Character:
         return self._known[forest]
 
     def then(self, other: Character) -> Character:
-        """Return the composition: this step, followed by the step ``other``, both of size h (HLW III.1.4,
-        Theorem 1.10).
+        """Return the composition of two steps of size h: this step acts first, and the step ``other`` acts
+        second (HLW III.1.4, Theorem 1.10).
 
         For ordered forests, left admissible cuts are used (Munthe-Kaas and Wright 2008, Theorem 5).
         """

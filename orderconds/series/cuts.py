@@ -1,13 +1,13 @@
 """Admissible cuts of trees and forests. The series of a composition of two steps is a sum over all admissible
 cuts.
 
-A cut divides a tree or forest into the components that are cut off and the rest.
+A cut removes components from a tree or forest. The part that remains is called the rest.
 
-- For unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer
-  1998; HLW III.1.4, ordered subtrees). In one additional cut, the whole tree is cut off.
-- For ordered forests, a left admissible cut removes leftmost branches at some vertices, or leftmost trees of
-  the forest. The branches removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput.
-  Math. 8 (2008) 227).
+- For unordered trees, a cut is a set of edges. Each path from the root contains at most one of these edges
+  (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees). One additional cut removes the whole tree.
+- For ordered forests, a left admissible cut removes some of the leftmost trees. The removed trees form one
+  component. At each remaining vertex, the cut may also remove some of the leftmost branches. The branches
+  removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -21,8 +21,8 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). If the whole tree or forest is cut off, it is the only component, and
-the rest is empty."""
+"""A cut, as a pair (components, rest). If a cut removes the whole tree or forest, then the whole is the only
+component, and the rest is empty."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 

@@ -1,8 +1,8 @@
 """The series of a Runge-Kutta-Munthe-Kaas method (RKMK), computed from the definition of the method.
 
 The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j = f(exp(u_j) y0)``. The step
-is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with the
-Bernoulli numbers B_k and B_1 = -1/2 (HLW IV.8.3).
+is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x, where
+ad_u x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (HLW IV.8.3).
 
 The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
 factor y acts first, so the letters of y precede the letters of x in a word. HLW denotes Hairer, Lubich and
@@ -114,12 +114,12 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of the word ``v k_j w`` in dexpinv_{(r),u_j} k_j for each stage j. Stage j
-        has the argument u_j and the stage value k_j. The series dexpinv is truncated after the power r.
+        """Return the coefficients of the words v k_j w in dexpinv_{(r),u_j} k_j for all stages j. Return None
+        if all coefficients are zero.
 
-        The word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
-        The powers of u_j contribute the words v and w. The stage value k_j is treated as one letter. Return
-        None if all coefficients are zero.
+        Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The series
+        dexpinv is truncated after the power r. The word v is ``start`` and has ``before`` letters. The word w
+        is ``end`` and has ``behind`` letters.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -161,8 +161,8 @@ class DexpinvSeries:
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     """Return the terms q u^n x u^m of dexpinv_u x with m + n <= ``longest``, as triples (q, m, n).
 
-    For k = m + n, the coefficient q is B_k/k! comb(k, m) (-1)^m with the Bernoulli number B_k. Terms with B_k
-    = 0 are omitted.
+    Let k = m + n. The coefficient is q = (-1)^m B_k / (m! n!), where B_k is a Bernoulli number. Terms with
+    B_k = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -175,7 +175,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache has no limit, because each number is computed from all earlier numbers.
+@cache  # The cache keeps all numbers, because each number is computed from all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
@@ -195,7 +195,7 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return a triple (start, letter, end) for each letter of a word. ``start`` and ``end`` are the positions
-    of the letter in the word."""
+    """Return a triple (start, letter, end) for each letter of a word. The letter is the ordered tree
+    ``word[start:end]``."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -1,12 +1,15 @@
 """Coefficients of words in a product of exponentials, over any ring.
 
-Let X_J = sum_k x_J(k) k be a linear combination of letters k. In a word k_1 ... k_n, the letter k_1 acts
-first. The coefficient of the word in exp(X_m) ... exp(X_1) is
+Let the exponents X_1, ..., X_m be linear combinations of letters, where x_J(k) is the coefficient of the
+letter k in X_J. In the product exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. In a word k_1 ... k_n,
+the letter k_1 acts first. The coefficient of this word in the product is the sum, over all indices J_1 <= ...
+<= J_n, of
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!.
+x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
-A run is a maximal sequence of equal indices J_l (HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter
-3). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
+(HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3). HLW denotes Hairer, Lubich and Wanner,
+*Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -52,8 +55,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over r. In term r, exp(X_J) contributes the last r letters of the
-                # word. Earlier exponentials contribute all other letters.
+                # The coefficient is a sum over r. In term r, the last r letters of the word come from
+                # exp(X_J). All other letters come from exp(X_0), ..., exp(X_(J-1)).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

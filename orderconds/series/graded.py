@@ -46,7 +46,7 @@ class GradedAlgebra:
         return {word: value for word, value in result.items() if self.ring.is_zero(value) is not True}
 
     def multiply(self, x: Mapping[Word, Element], y: Mapping[Word, Element]) -> Polynomial:
-        """Return the product x y, truncated above the largest grade."""
+        """Return the product x y without the words whose grade is greater than ``largest``."""
         result: Polynomial = {}
         heavy = {word: self.grade(word) for word in (*x, *y)}
         for u, a in x.items():
@@ -61,8 +61,8 @@ class GradedAlgebra:
         return self.combine((one, self.multiply(x, y)), (self.ring.zero - one, self.multiply(y, x)))
 
     def dexpinv(self, u: Mapping[Word, Element], x: Mapping[Word, Element]) -> Polynomial:
-        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x with the Bernoulli numbers B_k (Hairer, Lubich and
-        Wanner, *Geometric Numerical Integration*, III.4, (4.3))."""
+        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x, where ad_u x = [u, x]. The numbers B_k are the
+        Bernoulli numbers (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.4, (4.3))."""
         result, term = dict(x), dict(x)
         for k in range(1, self.largest):
             term = self.bracket(u, term)
@@ -81,8 +81,8 @@ def solve(
 ) -> list[Element] | None:
     """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution.
 
-    If the solution is not unique, x_n is zero for every column that depends on earlier columns. The ring must
-    have division.
+    If there are several solutions, x_n is zero whenever ``columns[n]`` is a linear combination of earlier
+    columns. The ring must have division.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

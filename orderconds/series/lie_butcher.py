@@ -1,13 +1,14 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
 A series has one coefficient for each ordered forest. A forest is a word of ordered trees, and its first tree
-acts first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients
-x_J(t). The coefficient of a word t_1 ... t_n in g is
+acts first. Let the exponents X_1, ..., X_m be linear combinations of trees, where x_J(t) is the coefficient
+of the tree t in X_J. In the product exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. The coefficient of
+a word t_1 ... t_n in this product is the sum, over all indices J_1 <= ... <= J_n, of
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!.
+x_{J_1}(t_1) ... x_{J_n}(t_n) / (r_1! r_2! ...).
 
-A run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*, IV.8).
+A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
+(Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The argument of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
+"""The exponent of one exponential, as pairs (index of a stage, coefficient of the stage value). Zero
 coefficients are omitted."""
 
 
@@ -39,9 +40,8 @@ class ExponentialsSeries:
 
     The product of the exponentials in ``stages[i]`` maps y0 to the point at which stage i evaluates the
     vector field. The product of the exponentials in ``update`` maps y0 to the result of the step. Each
-    exponential is given by its exponent: pairs (index of a stage, coefficient of the stage value). The first
-    exponential acts first. The method may be implicit. If several products begin with the same exponentials,
-    their common partial product is computed once.
+    exponential is given by its exponent, a list of pairs (index of a stage, coefficient of the stage value).
+    In each product, the exponential with index 0 acts first. The method may be implicit.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -56,9 +56,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """A triple for each non-empty partial product of exponentials. The triple contains the index of the
-        partial product, the index of the partial product without its last exponential, and the index of the
-        last exponential in ``_rows``."""
+        """Triples (product, shorter, last), one for each non-empty partial product of exponentials. Without
+        its last exponential, the partial product with index ``product`` is the partial product with index
+        ``shorter``. The exponent of the last exponential is ``_rows[last]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -121,14 +121,14 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in the partial products that ``places`` lists. The
-        entries of all other partial products are zero. The format of ``places`` is described at
-        ``self._places``."""
+        """Return a list with one entry for each partial product. For the partial products in ``places``, the
+        entry is the coefficient of ``word``, which must not be empty. All other entries are zero. The
+        format of ``places`` is described at ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The coefficient in a partial product is a sum over r. In term r, the last exponential of the partial
-        # product contributes the last r letters of the word. Earlier exponentials contribute all other
-        # letters.
+        # The coefficient in a partial product is a sum over r. In term r, the last r letters of the word come
+        # from the last exponential of the partial product. All other letters come from the other
+        # exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -146,8 +146,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each exponential in ``_rows``. None denotes a
-        coefficient that is proved to be zero."""
+        """Return the coefficients of a tree in the different exponents of the method. An entry is None if
+        the ring can prove that the coefficient is zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
@@ -166,9 +166,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. For a tree t_l, let c_l(s) be the coefficient,
-    in g(s), of the forest of its branches. Then the coefficient of the forest t_1 ... t_n in g(1) is the
-    integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. The branches of a tree t_l form a forest. Let
+    c_l(s) be the coefficient of this forest in g(s). Then the coefficient of the forest t_1 ... t_n in g(1)
+    is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -185,7 +185,7 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
     forests w = t_1 ... t_k, where |w| is the number of vertices. The elements F(t) of the Lie algebra are
     defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the derivative
-    along the fixed element F(t_l).
+    along the vector field y' = F(t_l) y, in which F(t_l) is constant.
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

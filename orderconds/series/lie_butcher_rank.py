@@ -2,10 +2,10 @@
 conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
 independent.
 
-A condition is superfluous if simpler conditions imply it. The left-hand side of a superfluous condition is a
-linear combination of simpler left-hand sides and of products of left-hand sides of lower order. The
-right-hand sides of the conditions satisfy the same relation. They are the values of the exact flow. In the
-matrix, the exact flow is therefore treated like a random method.
+A condition is superfluous if simpler conditions imply it. This is the case if its left-hand side is a linear
+combination of simpler left-hand sides and of products of left-hand sides of lower order. The right-hand sides
+must satisfy the same linear relation. The right-hand sides are the values of the exact flow, so one row
+of the matrix contains these values.
 """
 
 from __future__ import annotations
@@ -22,8 +22,9 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns one series for many random methods of a family. Each value of the series is a
-vector with one residue for each method (sample)."""
+"""A function that computes with many random methods of a family at the same time. The methods are called
+samples. The function returns one series. Each coefficient of the series is a vector with one number modulo a
+prime for each sample."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental
@@ -33,12 +34,15 @@ dependences improbable."""
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return the forests whose conditions are independent. ``candidates`` contains a sequence of forests for
-    each order 1, 2, .... Earlier forests of a sequence are preferred.
+    """Return the forests whose order conditions are independent, as one tuple for each order. ``candidates``
+    contains a sequence of forests for each order 1, 2, .... If conditions of the same order are dependent,
+    the forests at the beginning of the sequence are preferred.
 
-    The forests are selected modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the
-    larger of the two selected sets is returned. If ``with_exact_flow`` is false, the right-hand sides of the
-    conditions are ignored, and only the left-hand sides are tested for independence.
+    The order condition of a forest is: its coefficients in the method and in the exact flow are equal. If
+    ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
+
+    The forests are selected modulo two primes, and the larger selection is returned. A selection modulo a
+    prime can be too small, because a rank modulo a prime is at most the rank over Q.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -55,8 +59,9 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # There is one matrix for each order, with one row for each sample. Its rank is at most the number of
-    # ordered forests of this order. The number of samples must exceed the rank for the highest order.
+    # Each order has a matrix with one row for each sample. The rank of the matrix is at most the number of
+    # ordered forests of this order. This bound is largest for the highest order. The number of samples must
+    # exceed the largest bound.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

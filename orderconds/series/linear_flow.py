@@ -1,8 +1,8 @@
-"""Products of exponentials or of Cayley transforms. Each exponent is a function that maps a word to its
-coefficient.
+"""Products of exponentials or of Cayley transforms for the equation Y' = A(t) Y.
 
-Letter k has weight k and denotes the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y.
-The first letter of a word acts first.
+An exponent is a linear combination of words. It is given by a function that maps a word to its coefficient.
+The letter k denotes the coefficient of t^(k-1) in the matrix A(t). The weight of the letter k is k. The first
+letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""The power series of the exponential and of the Cayley transform, each with the series of its inverse. Each
-function returns the coefficients of a series without the constant term."""
+"""Two functions for the exponential, and two functions for the Cayley transform. The first function returns
+the coefficients of the power series of the transform, without the constant term 1. The second function
+returns the coefficients of the inverse function of this series."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

@@ -1,11 +1,11 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
 One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
-+ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Then a = sum_(j >= 1)
-(1/j!) L^(j-1) b. The linear map L maps coefficients c to L c. The value (L c)(t) is the sum of b(subtree)
-c(rest) over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
++ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. The linear map L turns a
+function c of trees into the function L c. The value (L c)(t) is the sum of b(subtree) c(rest) over all ways
+to cut one subtree off t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On ordered
+forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner,
+*Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ class VectorField:
     series has one coefficient for each ordered forest.
 
     The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t), where t runs through all trees. Here
-    |t| is the number of vertices, b(t) the coefficient of t, sigma(t) the order of the symmetry group of t,
-    and F(t) the elementary differential.
+    |t| is the number of vertices, b(t) is the coefficient of t, sigma(t) is the order of the symmetry group
+    of t, and F(t) is the elementary differential.
 
     The field of a Lie-Butcher series for matrices is f~ = sum_w h^(|w|-1) b(w) F(t_k) ... F(t_1), where w =
     t_1 ... t_k runs through all words of ordered trees.
@@ -44,8 +44,8 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the coefficients of the field. This function may use the
-        coefficients of smaller trees."""
+        """Set the function ``value``, which maps a tree or forest to its coefficient in the field. To compute
+        the coefficient of a tree, ``value`` may use the coefficients of smaller trees in this field."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
@@ -65,17 +65,21 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the coefficient of a tree or forest in the flow minus its coefficient in the vector field.
-        This difference depends only on the coefficients of smaller trees in the vector field."""
+        """Return a difference of two coefficients of a tree or forest: the coefficient in the flow minus the
+        coefficient in the vector field. The difference depends only on the coefficients of smaller trees in
+        the vector field."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return (L^(n-1) b)(forest), where b maps a tree or forest to its coefficient in this vector field.
-        For any map c, (L c)(forest) is the sum of b(component) c(rest) over all ways to cut off one
-        component."""
+        """Return the value of the function L^(n-1) b for a tree or forest. The function b maps a tree or
+        forest to its coefficient in this vector field.
+
+        The linear map L turns a function c into the function L c. The value (L c)(forest) is the sum of
+        b(component) c(rest) over all cuts that remove one component and leave a non-empty rest.
+        """
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -107,13 +111,17 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. Here b(t) is the coefficient of t in the field, and sigma(t) is the order of the symmetry group
-    of t. For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). If the removal
-    of an edge divides t into two equal trees, then H(t) is zero, and t is omitted (HLW IX.9.2).
+    vertices. Here |t| is the number of vertices, b(t) is the coefficient of t in the field, and sigma(t) is
+    the order of the symmetry group of t.
 
-    The field is Hamiltonian if b(u o v) + b(v o u) = 0 for all trees u and v, where o is Butcher's product.
-    Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series, or if these equations cannot be
-    proved.
+    For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
+    F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If
+    t consists of two equal trees and an edge between their roots, then H(t) is zero, and t is omitted (HLW
+    IX.9.2).
+
+    Let u o v be the tree u with the additional branch v at its root. The field is Hamiltonian if b(u o v) +
+    b(v o u) = 0 for all trees u and v. Raises :class:`~orderconds.errors.InputError` if the field is a
+    Lie-Butcher series, or if one of the equations cannot be proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

@@ -1,6 +1,5 @@
-"""Products of generators. A generator is the left-hand side of an order condition. Each generator has a
-degree, and the degree of a product is the sum of the degrees. If the conditions hold, each product has equal
-values for the method and for the exact flow."""
+"""Products of generators. Each generator has a degree, and the degree of a product is the sum of the degrees
+of its factors. In the selection of order conditions, the generators are left-hand sides of conditions."""
 
 from __future__ import annotations
 

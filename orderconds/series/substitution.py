@@ -4,9 +4,10 @@ series in f.
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
 Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
-Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the map from
-f to the new vector field is extended to forests by concatenation and left grafting (Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the vector
+field is replaced recursively. In a tree, the images of the branches are grafted onto the new vector field. In
+a forest, the images of the trees are concatenated (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295,
+Section 4.3).
 """
 
 from __future__ import annotations
@@ -81,9 +82,9 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions must equal ``flow(tree)``. In the partition into one component, the
-        # quotient tree has one vertex, and its coefficient in a consistent step is 1. Hence the summand of
-        # this partition is ``field(tree)``. It equals ``flow(tree)`` minus all other summands.
+        # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
+        # summand ``field(tree)``, because a quotient tree with one vertex has the coefficient 1 in a
+        # consistent step. Hence ``field(tree)`` is ``flow(tree)`` minus the summands of all other partitions.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -91,9 +92,9 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the coefficient of a tree in the series of ``step``, applied to the vector field ``field``. The
-    coefficient is a sum over partitions of the tree. If ``whole`` is false, omit the partition into one
-    component."""
+    """Return the coefficient of a tree in the series of the method ``step`` if the method is applied to the
+    vector field ``field``. The coefficient is a sum over partitions of the tree. If ``whole`` is false, the
+    partition into one component is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -121,9 +122,12 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Partition a tree by removing edges. ``cut`` contains one flag for each edge in preorder. An edge is
-    removed if its flag is true. ``cut`` may contain more flags than the tree has edges. Return the component
-    of the root, the other components, the quotient tree, and the unused flags."""
+    """Partition a tree by removing edges. ``cut`` contains one flag for each edge in preorder, and an edge is
+    removed if its flag is true. Additional flags at the end of ``cut`` are not used.
+
+    Return four values: the component of the root, a list of the other components, the quotient tree, and the
+    flags that are not used.
+    """
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -145,8 +149,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """A map of words of ordered trees. It extends the replacement of the vector field f by ``field``. The
-    image of a word is a linear combination of forests with at most a given number of vertices."""
+    """A map that replaces the vector field f by ``field`` in words of ordered trees. The image of a word is a
+    linear combination of forests. Forests with more vertices than a given number are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -1,18 +1,19 @@
 """Series of two-register (2N) Runge-Kutta schemes, on a group and on a vector space.
 
-The registers are y and k, with k = 0 at the start of a step. Stage i computes k <- A_i k + h f(y), then y <-
-exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
-the derivative along k' = f(y). The drift D is the derivative along y' = k y. The expansion of these
-exponentials is a sum over words in K and D. The last letter of a word acts first. At k = 0, a word
-contributes to the sum under two conditions. The numbers of letters K and D are equal, and no suffix contains
-more letters K than letters D.
+The registers are y and k. At the start of a step, k is zero. Stage i replaces k by A_i k + h f(y), and then
+replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
+letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
+along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, only
+words with two properties are needed. The numbers of letters K and D are equal, and no suffix contains more
+letters K than letters D.
 
-Each linear combination of words is an operator. The page docs/explanation/two_registers.md proves: if the
-operator is zero on vector spaces, it is zero on every group, and vice versa. Hence a 2N scheme has the same
-order on groups and on vector spaces. The value of a rooted forest is the product of the elementary weights of
-its trees. In the Lie-Butcher series of a 2N scheme, the coefficient of an ordered forest is a linear
-combination of the values of rooted forests. This module computes the linear combination, which is the same
-for all 2N schemes.
+A linear combination of words is a differential operator. If this operator is zero on all vector spaces, then
+it is zero on every group, and vice versa. The proof is in docs/explanation/two_registers.md. Hence a 2N
+scheme has the same order on groups and on vector spaces.
+
+The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series
+of a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
+The linear combination is the same for all 2N schemes. This module computes it.
 """
 
 from __future__ import annotations
@@ -29,9 +30,10 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives, from left to right. Each factor is the derivative of a function along a vector
-field. None denotes the derivative along the register k. A tuple P, which is itself a product of derivatives,
-denotes the derivative along the vector field P f. Here f is the vector field of the problem."""
+"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. The
+factor None is the derivative along the register k. A factor P that is a tuple is itself a product of
+derivatives. Apply P to the vector field f of the problem. The result is a vector field, and the factor is the
+derivative along this vector field."""
 
 Combination = dict[Operator, int]
 
@@ -68,8 +70,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 def on_vector_space(word: str) -> dict[Forest, int]:
     """Return the differential operator that a word denotes on a vector space. The letters of the word are K
-    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. The trees are
-    canonical, and a forest contains them in descending order.
+    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. Each forest has
+    the order of branches and of trees that :func:`unordered` returns.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -80,7 +82,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 def unordered(forest: Forest) -> Forest:
     r"""Return an ordered forest as a forest of rooted trees, in which the order of branches and of trees does
-    not matter. The result consists of canonical trees in descending order.
+    not matter. The trees of the result are canonical, and the tree with the greatest level sequence comes
+    first.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -113,8 +116,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices whose elementary weights are independent for two-register
-    (2N) schemes. The weights of these trees and of smaller trees determine the weights of all trees with
+    """Return a selection of the rooted trees with ``order`` vertices. For two-register (2N) schemes, the
+    elementary weights of the selected trees and of smaller trees determine the weights of all trees with
     ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
@@ -129,14 +132,15 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Return the relations between ordered and rooted forests for two-register (2N) schemes. In the series of
-    a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
-    The result maps each ordered forest with ``order`` vertices to its linear combination {rooted forest:
-    number}.
+    """Express the coefficients in the Lie-Butcher series of two-register (2N) schemes by elementary weights.
 
-    The value of a rooted forest is the product of the elementary weights of the trees in the forest. The
-    result is valid for every 2N scheme and for the exact flow. Raises ValueError if the coefficient of some
-    ordered forest is not a linear combination of values of rooted forests.
+    The value of a rooted forest is the product of the elementary weights of the trees in the forest. In a 2N
+    scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests. The
+    result maps each ordered forest with ``order`` vertices to a linear combination. A linear combination is a
+    map from rooted forests to numbers.
+
+    The result is valid for every 2N scheme and for the exact flow. Raises ValueError if a coefficient is not
+    a linear combination of values.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -155,13 +159,14 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
                 raise ValueError(
-                    f"a coefficient of order {order} is not a linear combination of values of rooted forests"
+                    f"a coefficient of order {order} is not a linear combination of products of elementary"
+                    " weights"
                 )
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(
-            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of values of"
-            " rooted forests"
+            f"only {len(relations)} of {len(ordered)} coefficients are linear combinations of products of"
+            " elementary weights"
         )
     return {forest: relations[forest] for forest in ordered}
 
@@ -188,8 +193,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Differentiate a product of derivatives along the register k. The letter D of a word denotes this
-    derivative. By the product rule, the result is a sum."""
+    """Apply the letter D to a product of derivatives. The letter D denotes the derivative along the register
+    k. By the product rule, the result is a sum."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -197,8 +202,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. The result is a sum. In each term, a derivative along
-    the vector field f replaces one derivative along the register k."""
+    """Apply the letter K to a product of derivatives. The result is a sum with one term for each derivative
+    along the register k. In this term, the derivative along the vector field f replaces that derivative."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -208,8 +213,9 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum with one term for each factor P of ``product`` that is not None. In this term, ``act(P)``
-    replaces the factor P. The function ``act`` is :func:`_drift` or :func:`_kick`."""
+    """Apply ``act`` inside the factors of a product of derivatives. ``act`` is :func:`_drift` or
+    :func:`_kick`. The result is a sum. In each term, ``act(P)`` replaces one factor P. Factors None are not
+    replaced."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -1,7 +1,7 @@
-"""Trees and forests, represented as bytes. The bytes are the levels of the vertices in preorder, with the
-root at level 0.
+"""Trees and forests, represented as bytes. The bytes are the levels of the vertices in preorder. The root has
+level 0. These bytes are called the level sequence.
 
 ``rooted`` enumerates unordered rooted trees. ``ordered`` enumerates planar rooted trees and their forests.
-``directed`` enumerates rooted and free trees with directed edges. ``levels`` contains functions for all level
+``directed`` enumerates rooted and free trees with directed edges. ``levels`` contains functions for level
 sequences. ``counts`` computes the numbers of trees from generating functions.
 """

@@ -1,12 +1,12 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
 Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 (white) denotes the second
-part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. Branches are in
-descending order.
+part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. The branches at
+each vertex are sorted, and the branch with the greatest encoding comes first.
 
-The encoding in :mod:`orderconds.trees.directed` differs in one respect: each vertex except the root has the
-kind of the edge to its parent in place of a colour. HLW denotes Hairer, Lubich and Wanner, *Geometric
-Numerical Integration*.
+The module :mod:`orderconds.trees.directed` uses the same encoding for trees with edges of two kinds. There,
+the colour is replaced by the kind of the edge from the vertex to its parent. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). Trees
-    with a black root come first.
+    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). The
+    trees with a black root come before the trees with a white root.
+
+    In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']
@@ -65,7 +67,8 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the tree with the branches at every vertex in descending order.
+    """Return the tree in canonical order: at every vertex, the branches are sorted by their encodings, the
+    greatest encoding first.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True
@@ -112,8 +115,9 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""Yield three trees for each edge at the root. The edge separates the tree into u, which contains the
-    root, and v. Yield u, v, and the whole tree with the root moved across the edge to v.
+    r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
+    contains the root, and v does not. The tree w is the whole tree, rooted at the vertex of v next to the
+    edge.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]
@@ -144,7 +148,8 @@ def symmetry(tree: BicolouredTree) -> int:
 
 
 def text(tree: BicolouredTree) -> str:
-    """Return a tree as text: ``.`` and ``[..]`` for a black root, ``o`` and ``(..)`` for a white root.
+    """Return a tree as text. A black vertex without branches is ``.``, and a white one is ``o``. At other
+    vertices, the branches are written in ``[ ]`` if the vertex is black, and in ``( )`` if it is white.
 
     >>> text(bytes((0, 3, 2, 5)))
     '[o[o]]'

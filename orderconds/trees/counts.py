@@ -11,8 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of total weight 1, 2, ..., n. Entry k - 1 of ``counts`` is the number
-    of different elements of weight k, and n is the length of ``counts``.
+    """Return the numbers of multisets of elements that have weights. Entry k - 1 of ``counts`` is the number
+    of different elements of weight k. Entry k - 1 of the result is the number of multisets of total weight k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -94,13 +94,14 @@ def alternating_free_tree_count(vertices: int) -> int:
 
 
 def _in_equal_halves(vertices: int) -> int:
-    """Return the number of free trees that an edge divides into two equal rooted trees."""
+    """Return the number of free trees that consist of two equal rooted trees and an edge between the two
+    roots."""
     return rooted_tree_count(vertices // 2) if vertices % 2 == 0 else 0
 
 
 def directed_free_tree_count(vertices: int) -> int:
     """Return the number of free trees with directed edges (A000238). By Otter's theorem, the result is the
-    number of rooted trees minus the number of trees rooted at an edge.
+    number of trees with one marked vertex minus the number of trees with one marked edge.
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]
@@ -114,7 +115,8 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     k.
 
     Every word is the product of a unique non-increasing sequence of Lyndon words. Hence the numbers L(n) of
-    Lyndon words of weight n satisfy prod_n (1 - x^n)^-L(n) = 1/(1 - sum_k letters(k) x^k).
+    Lyndon words of weight n satisfy an equation. The product of (1 - x^n)^(-L(n)) over all n is equal to
+    1/(1 - sum_k letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]
