@@ -16,8 +16,8 @@ def tree_counts(order: int) -> tuple[int, ...]:
     - Lie(T): independent Lie polynomials in g-valued trees.
 
     The functions T, P and W solve the equations T = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The
-    generating function of the returned numbers is Lie(T) - T P. The numbers are upper bounds of the numbers
-    of independent conditions.
+    returned numbers are the coefficients of Lie(T) - T P. For each number of vertices, the returned number is
+    an upper bound for the number of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -41,11 +41,11 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    The root of a tree can move from vertex to vertex, but not into a subtree of the form ``L(w)``. If k
-    vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of rooted
-    trees, and E the number of such edges in all classes. Then the number of classes is R - E. Each such edge
-    divides the tree into a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. Therefore E is the
-    number of pairs (force, g-valued tree) in which both trees together have ``vertices`` vertices.
+    A vertex in a subtree of the form ``L(w)`` cannot be the root. The other vertices of the tree can be the
+    root. If there are k of them, they are connected by k - 1 edges. Let R be the number of rooted trees, and
+    let E be the number of these edges in all classes. Then the number of classes is R - E. If one of these
+    edges is removed, the tree becomes a force (:class:`~orderconds.series.action_trees.Force`) and a g-valued
+    tree. Therefore E is the number of pairs (force, g-valued tree) with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -58,8 +58,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return the numbers of g-valued and of g*-valued trees with 0, 1, ..., ``order`` vertices. They are the
-    coefficients of the functions T and P in the docstring of :func:`tree_counts`."""
+    """Return two lists: the numbers of g-valued trees and the numbers of g*-valued trees. Entry n of a list
+    is the number of trees with n vertices, for n = 0, 1, ..., ``order``."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -71,8 +71,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
         # Let p_d be the number of g*-valued trees with d vertices. Let e_n be the number of multisets of
-        # g*-valued trees with n vertices in total. For n >= 1, Euler's transform is the equation
-        # n e_n = sum_{k=1}^n (sum_{d|k} d p_d) e_{n-k}.
+        # g*-valued trees with n vertices in total. For n >= 1, Euler's transform is
+        # n e_n = sum_{k=1}^n s_k e_{n-k}. Here s_k is the sum of d p_d over the divisors d of k.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (

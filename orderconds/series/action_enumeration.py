@@ -4,9 +4,9 @@ A g-valued tree denotes an element of the Lie algebra g. A g*-valued tree denote
 Each vertex of a tree represents a derivative of the Hamiltonian H.
 
 The cost of a tree measures how difficult its condition is to read. No subtree costs more than the whole tree.
-A long list is enumerated in parts, with increasing cost limits, because a check usually needs only the
-simplest trees. There are 6331 g-valued trees with six vertices. For most methods, the conditions of a few
-hundred of these trees are sufficient to determine the order.
+The trees are enumerated in several passes with increasing cost limits, because a check usually needs only the
+simplest trees. For example, there are 6331 g-valued trees with six vertices. For most methods, the conditions
+of a few hundred of these trees are sufficient to determine the order.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""Trees are enumerated in parts of increasing cost. Each number is the largest cost in one part."""
+"""Trees are enumerated in several passes. Each number is the largest cost of the trees in one pass."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -77,8 +77,8 @@ def momenta(vertices: int) -> Momenta:
 
 
 def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return all multisets of g*-valued trees with ``vertices`` vertices in total, each in canonical
-    order.
+    """Return all multisets of g*-valued trees with ``vertices`` vertices in total. The trees of each multiset
+    are in canonical order.
 
     >>> multisets(1)
     ((f(*),), (L(o),))
@@ -103,8 +103,8 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return the words with ``vertices`` vertices and cost at most ``limit``, as sorted pairs (cost,
-    word)."""
+    """Return pairs (cost, word), sorted by cost, for all words with ``vertices`` vertices and cost at most
+    ``limit``."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -120,9 +120,9 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (cost, tree) for g-valued trees with ``vertices`` vertices, sorted by cost. Here the cost
-    is the contribution of the tree to the cost of a word that contains the tree. The list contains the trees
-    that can occur in a word of cost at most ``limit``."""
+    """Return pairs (cost, tree), sorted by cost, for the g-valued trees with ``vertices`` vertices that can
+    occur in a word of cost at most ``limit``. The cost in a pair is the contribution of the tree to the cost
+    of a word."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -151,8 +151,8 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return the multisets of g*-valued trees with ``vertices`` vertices in total and cost at most ``limit``,
-    as sorted pairs (cost, multiset)."""
+    """Return pairs (cost, multiset), sorted by cost, for all multisets of g*-valued trees with ``vertices``
+    vertices in total and cost at most ``limit``."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 
@@ -160,11 +160,12 @@ def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
     """Yield pairs (cost, multiset) for multisets of g*-valued trees. The trees of a multiset have
-    ``vertices`` vertices in total. The cost of the multiset, which is the sum of the costs of its trees, is
-    at most ``rest``.
+    ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its trees, and it is at
+    most ``rest``.
 
-    Each tree has at most ``largest`` vertices. If a tree has exactly ``largest`` vertices, its index in
-    :func:`_momenta` is at most ``bound``. These limits ensure that each multiset is generated only once.
+    Each tree has at most ``largest`` vertices. A tree with exactly ``largest`` vertices has at most the index
+    ``bound`` in the result of :func:`_momenta`. Because of these limits, each multiset is generated only
+    once.
     """
     if vertices == 0:
         yield 0, ()

@@ -3,12 +3,15 @@
 In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
 over times replace sums over stages:
 
-- ``Phi_w(s)``, for the word w = t_1...t_k, is the iterated integral of ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
-  over 0 <= s_1 <= ... <= s_k <= s;
-- ``psi_{L(t_1...t_k)}(s)`` is the iterated integral of this product over 1 >= s_1 >= ... >= s_k >= s;
-- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``. Here
-  ``Phi_v(s, s')`` is the iterated integral for the word v from s to s'. With Python's slices of v, it is
-  equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
+- ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product
+  ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s.
+- ``psi_{L(w)}(s)`` is the integral of the same product over all times with 1 >= s_1 >= ... >= s_k >= s.
+- ``psi_{H(u*v|M)}(s)`` is the integral of ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s'
+  from s to 1.
+
+Here ``Phi_v(s, s')`` is the same integral as ``Phi_v(s')``, but with the lower limit s in place of 0. It is
+equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word ``v[:k]`` contains the first k
+letters of v, and ``v[k:]`` contains the remaining letters.
 """
 
 from __future__ import annotations

@@ -2,9 +2,9 @@
 error. The module :mod:`orderconds.series.action_trees` defines the trees.
 
 A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
-moved along direction i by a step eps_i with eps_i^2 = 0, for all i. The derivative is the coefficient of
-eps_1 ... eps_k in the value of H at the moved point. H may be any polynomial in the entries of the matrix q
-and the coordinates of mu, over any ring.
+moved k times: along direction i, the length of the step is a variable eps_i with eps_i^2 = 0. The value of H
+at the new point is a polynomial in these variables. The derivative is the coefficient of the product eps_1
+... eps_k. H must be a polynomial in the entries of the matrix q and the coordinates of mu.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps a bit mask for each term to the
-    coefficient of the term. Bits are counted from 0: bit i is set if the term contains eps_(i+1).
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients. A bit
+    mask represents a product of variables: the mask 1 represents eps_1, 2 represents eps_2, 3 represents
+    eps_1 eps_2, and 0 represents the constant term.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -107,8 +108,8 @@ class ActionFields:
         self._covector: dict[Momentum, Coordinates] = {}
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
-        """Return the mixed derivative of H in q along the right-invariant ``fields``, and in mu along the
-        ``covectors``."""
+        """Return the mixed derivative of the Hamiltonian H(q, mu). The derivatives in q are taken along the
+        right-invariant ``fields``, and the derivatives in mu along ``covectors``."""
         q: Matrix = self.q
         mask = 1
         for field in fields:
@@ -161,8 +162,8 @@ class ActionFields:
         return components
 
     def transported(self, word: Word) -> Coordinates:
-        """Return the coordinates of the covector ``x -> <mu, ad xi_1 ... ad xi_k x>``, where xi_i is the
-        elementary velocity of letter i of the word."""
+        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``. Here xi_i is
+        the elementary velocity of letter i of the word."""
         values = []
         for unit in self.units:
             x = unit
@@ -174,10 +175,11 @@ class ActionFields:
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
         """Return the leading terms of the local errors of position and momentum, for a method of order p.
 
-        The results are the coefficients of h^(p+1) in the errors after one step of size h: a matrix for the
-        position, and coordinates for the momentum. ``defects`` maps each word with p + 1 vertices to its
-        coefficient in the update minus its coefficient in the exact flow. This difference must be zero for
-        all words with fewer vertices.
+        The result contains the coefficients of h^(p+1) in the errors after one step of size h. The first
+        value is a matrix for the position, and the second value contains the coordinates for the momentum.
+        ``defects`` maps each word with p + 1 vertices to a difference: the coefficient of the word in the
+        update minus its coefficient in the exact flow. For words with fewer vertices, the difference must be
+        zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -194,9 +196,9 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # Let mu0 be the initial momentum and mu1 the final momentum. The method computes mu0 from mu1,
-            # and ``weight * change`` is a term of the error of mu0. If mu1 is considered as a function of
-            # mu0, the error of mu1 has the opposite sign. Therefore the term is subtracted.
+            # The series expresses the initial momentum by the final momentum, and ``weight * change`` is a
+            # term of the error of the initial momentum. The error of the final momentum, for a given initial
+            # momentum, has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

@@ -5,8 +5,10 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-In a word ``u x v``, the letter x represents a variation of the velocity of one stage. The words u and v are
-called ``before`` and ``after`` in this module.
+The method also needs the coefficients of words that contain one special letter x. This letter represents a
+variation of the velocity of one stage. Such a word is written ``u x v``: the letters of the word u precede x,
+and the letters of the word v follow x. The functions of this module call these words ``before`` and
+``after``.
 """
 
 from __future__ import annotations
@@ -27,8 +29,8 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from each stage to the coefficient of a word u x v, where x is a variation of the velocity of the
-stage. Zero coefficients may be omitted."""
+"""A map from stages to coefficients of a word u x v. For each stage, the letter x represents a variation of
+the velocity of this stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -63,7 +65,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
-        stages, the exponential is that of the update."""
+        stages, return the coefficient in the exponential of the update."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
@@ -72,9 +74,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the exponential of stage ``row``. If ``row`` is the
-        number of stages, the exponential is that of the update. Here u is ``before``, v is ``after``, and the
-        letter x is a variation of the velocity of the stage with index ``stage``."""
+        """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
+        stages, return the coefficient in the exponential of the update.
+
+        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is a
+        variation of the velocity of the stage with index ``stage``.
+        """
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -94,9 +99,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word u x v in the exponentials of all stages. The module docstring
-        defines u, x and v. If ``update`` is 1, the result contains only the coefficients in the exponential
-        of the update."""
+        """Return a list of coefficients (:data:`Varied`) of the word u x v. If ``update`` is 0, the list
+        contains the coefficients in the exponential of each stage. If ``update`` is 1, the list contains only
+        the coefficients in the exponential of the update. The module docstring defines u, x and v."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -109,9 +114,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word in X_i^n for each stage i, where X_i is the exponent of the stage.
-        If ``update`` is 1, the result contains only the coefficient in Y^n, where Y is the exponent of the
-        update."""
+        """Return a list of coefficients of ``word``. If ``update`` is 0, the list contains the coefficient in
+        X_i^n for each stage i. If ``update`` is 1, the list contains only the coefficient in Y^n. The module
+        docstring defines X_i and Y."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -125,9 +130,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word u x v in X_i^n for each stage i, where X_i is the exponent of
-        the stage. If ``update`` is 1, the result contains only the coefficients in Y^n, where Y is the
-        exponent of the update. The module docstring defines u, x and v."""
+        """Return a list of coefficients (:data:`Varied`) of the word u x v. If ``update`` is 0, the list
+        contains the coefficients in X_i^n for each stage i. If ``update`` is 1, the list contains only the
+        coefficients in Y^n. The module docstring defines these symbols."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -143,8 +148,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the result of :meth:`_varied_power` to ``totals``, for n > 1. The n-th power is computed as the
-        product of the first power and the power n - 1."""
+        """Add the result of :meth:`_varied_power` for a power n > 1 to ``totals``. The n-th power of an
+        exponent is the product of the exponent and its power n - 1."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             # ``cut`` divides the word u x v into two words. If the first word contains x, ``rest`` is the
             # number of letters of ``after`` in the first word. Otherwise, ``rest`` is negative.
@@ -174,9 +179,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of the word u x v in the truncated series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series. Here u is ``before``, v is
-        ``after``, and the letter x is a variation of the velocity of one stage."""
+        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
+        xi_j. The module docstring defines this series.
+
+        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is a
+        variation of the velocity of one stage.
+        """
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -196,11 +204,11 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return, for each stage j, the coefficient of the word ``v xi_j w`` in the truncated series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
+        """Return, for each stage j, the coefficient of a word in the truncated series dexpinv_{(r),X_j} xi_j.
+        The module docstring defines this series.
 
-        Here v is ``before``, w is ``behind``, and xi_j counts as one letter. The letters of v and w come from
-        X_j. Return None if all coefficients are zero.
+        The word consists of the word ``before``, the letter xi_j, and the word ``behind``. The letters of the
+        two words come from X_j. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -216,11 +224,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of the word ``u x v xi_j w`` in the truncated series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
+        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
+        xi_j. The module docstring defines this series.
 
-        Here u is ``before``, v is ``after``, w is ``behind``, and xi_j counts as one letter. The letter x is
-        a variation of the velocity of one stage.
+        The word consists of the word ``before``, the letter x, the word ``after``, the letter xi_j, and the
+        word ``behind``. The letter x is a variation of the velocity of one stage.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
@@ -231,11 +239,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of the word ``w xi_j u x v`` in the truncated series
-        dexpinv_{(r),X_j} xi_j. The module docstring defines this series.
+        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
+        xi_j. The module docstring defines this series.
 
-        Here w is ``first``, u is ``before``, v is ``after``, and xi_j counts as one letter. The letter x is a
-        variation of the velocity of one stage.
+        The word consists of the word ``first``, the letter xi_j, the word ``before``, the letter x, and the
+        word ``after``. The letter x is a variation of the velocity of one stage.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
@@ -245,10 +253,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a word v xi w. The word v has
-        ``before`` letters, and w has ``behind`` letters.
+        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a certain word. In this word,
+        ``before`` letters precede the letter xi, and ``behind`` letters follow it.
 
-        The first letter of a word acts first. Hence the letters of X^m precede the letter xi.
+        The factor X^m acts first, and so does the first letter of a word. Hence the letters before xi come
+        from X^m, and the letters behind xi come from X^n.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -265,8 +274,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms q X^n xi X^m of the truncated series dexpinv_X xi with m + n <= ``most``, as
-        triples (q, m, n)."""
+        """Return the terms of the truncated series dexpinv_X xi that contain at most ``most`` factors X. A
+        triple (q, m, n) represents the term q X^n xi X^m."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -276,11 +285,12 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of variational Runge-Kutta-Munthe-Kaas methods in which the inverse of a truncated
-    dexp replaces dexpinv.
+    """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp. The
+    inverse of the truncated dexp replaces dexpinv.
 
-    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j for the velocity
-    xi_j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.
+    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j =
+    xi_j, where xi_j is the velocity of stage j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of
+    X, and r is ``cutoff``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -295,11 +305,12 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return the terms q X^n xi X^m of the inverse of the truncated dexp_X, applied to xi, with m + n <=
-    ``most``. The result contains the triples (q, m, n).
+    """Return terms of the vector v that solves dexp_{(r),X} v = xi, where r is ``cutoff``. Here dexp_{(r),X}
+    is dexp_X truncated after the r-th power of X. The result contains the terms with at most ``most`` factors
+    X. A triple (q, m, n) represents the term q X^n xi X^m.
 
-    Let r be ``cutoff``, and let sum_k q_k z^k be the power series of 1/sum_{j<=r} z^j/(j+1)!. For k = m + n,
-    the coefficient q is q_k comb(k, m) (-1)^m. Terms with q_k = 0 are omitted.
+    Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
+    series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

@@ -6,7 +6,8 @@ n. The polynomial must be the same for every method **and for the exact flow**. 
 condition that no method of the family satisfies could count as dependent.
 
 Dependences are computed from the values of the trees for many random methods and for the exact flow. The
-simplest trees are selected as pivots.
+trees are considered one after another, simplest first. A tree is selected if its condition does not depend on
+the conditions of the trees before it.
 """
 
 from __future__ import annotations
@@ -27,12 +28,12 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that returns one action series for many random methods of a family. Each value of the series is
-a vector with one residue for each method (sample)."""
+"""A function that creates many random methods of a family and returns their common action series. Each value
+of the series is a vector with one residue for each method. The random methods are also called samples."""
 
 SPARE_SAMPLES = 24
-"""The number of samples in excess of the largest possible rank. With these additional samples, it is
-improbable that independent conditions seem to be dependent."""
+"""The number of samples minus the largest possible rank. The additional samples make it improbable that
+independent conditions seem to be dependent."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would require more memory."""
@@ -42,10 +43,10 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
     simpler conditions.
 
-    The trees are selected modulo two primes, and the larger of the two sets is returned. The conditions of
-    the returned trees are certainly independent, because a rank modulo a prime is never larger than the rank
-    over Q. With high probability no independent condition is missing. If the number of trees is equal to the
-    upper bound of :func:`~orderconds.series.action_counts.tree_counts`, certainly none is missing.
+    The function selects trees modulo two primes, and returns the larger selection. The conditions of the
+    returned trees are certainly independent, because a rank modulo a prime is never larger than the rank over
+    Q. The selection is very probably complete. It is certainly complete if the number of trees is equal to
+    the upper bound of :func:`~orderconds.series.action_counts.tree_counts`.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -73,8 +74,8 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return a map from each tree to a vector. The vector contains the left-hand side of the condition of the
-    tree for random methods, modulo ``prime``. The last entry is the value for the exact flow.
+    """Return a map from each tree to a vector of numbers modulo ``prime``. Each entry is the left-hand side
+    of the condition of the tree for one random method. Only the last entry is the value for the exact flow.
 
     Calls that differ only in the list of trees use the same random methods.
 
@@ -102,9 +103,11 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank for the conditions of order ``order``. It is the number of products of
-    independent elementary Hamiltonians (:func:`~orderconds.series.action_counts.tree_counts`). The factors
-    of a product have ``order`` vertices in total.
+    """Return the largest possible rank of the conditions of order ``order``.
+
+    Consider products of the independent elementary Hamiltonians that
+    :func:`~orderconds.series.action_counts.tree_counts` counts. The result is the number of products with
+    ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -5,8 +5,9 @@ for random methods and for the exact flow give linear equations for the coeffici
 equations are solved modulo two primes, and the rational coefficients are reconstructed from the residues.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
-commutator-free methods. They follow from the equation ``psi_{L(o(|L(o)))} = 3 psi_{L(o o)} - psi_{L(o)}^2``,
-where psi_p is the coefficient of the tree p at a stage (:mod:`orderconds.series.action`).
+commutator-free methods. Let psi_p be the coefficient of the tree p at a stage
+(:mod:`orderconds.series.action`). The three relations follow from the equation ``psi_{L(o(|L(o)))} = 3
+psi_{L(o o)} - psi_{L(o)}^2``.
 """
 
 from __future__ import annotations
@@ -36,11 +37,12 @@ values of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from each dependent tree of the highest order to a polynomial. The polynomial expresses
-    the condition of the tree by the conditions of independent trees.
+    """Return a map from trees to polynomials. The polynomial of a tree expresses the condition of the tree by
+    the conditions of independent trees.
 
-    ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees`. The relations are
-    wrong with a probability of about 10^-8; :func:`hold_over_rationals` verifies them over Q.
+    ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
+    ..., n. The keys of the map are the dependent trees with n vertices. The polynomials are wrong with a
+    probability of about 10^-8. The function :func:`hold_over_rationals` verifies them over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -90,13 +92,13 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Return True if the relations hold exactly for the exact flow and for a method with random coefficients
-    in Q.
+    """Return True if ``polynomials`` are correct for the exact flow and for a method with random rational
+    coefficients. The argument has the form of a result of :func:`relations`.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. A false relation of degree d holds for a random method with a probability below d/2^60.
+    ``ring``. For a random method, a false relation of degree d holds with a probability below d/2^60.
 
-    In the example, ``right`` contains the relations of order 2, and ``wrong`` changes their coefficients.
+    In the example, ``right`` contains the relations of order 2. The coefficients in ``wrong`` are different.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -132,9 +134,9 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Express the condition of each tree as a linear combination of ``monomials``, which are products of
-    conditions. Return a map for each tree. It maps the indices of monomials to coefficients modulo
-    ``prime``."""
+    """Express the condition of each tree as a linear combination of ``monomials``. A monomial represents the
+    product of the conditions of its trees. Return one map for each tree. The map contains the coefficients
+    modulo ``prime``, and its keys are indices of monomials."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

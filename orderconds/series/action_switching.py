@@ -1,9 +1,11 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
-Let w, u, v be words of trees and M, N multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w |
-M) v | N)`` differ in the root. Their coefficients are equal for every method and for the exact flow, because
-two sums over stages can be exchanged. All trees that differ only in the choice of the root form a class. The
-condition of one tree of each class is sufficient.
+The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
+trees, and let M and N be multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w | M) v | N)``
+differ only in the choice of the root. Their conditions are double sums over the stages of a method. The two
+sums differ only in the order of summation. Hence the two conditions have the same left-hand side for every
+method. Their values for the exact flow are equal, too. All trees that differ only in the choice of the root
+form a class. The condition of one tree of each class is sufficient.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
     """Yield the classes of trees that differ only in the choice of the root. The classes are sorted by their
-    simplest trees. Each class is computed on demand.
+    simplest trees. A class is computed only when it is needed.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -63,9 +65,9 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return a pair (classes, iterator). The iterator computes the classes of trees with ``vertices``
-    vertices. The list ``classes`` is empty at first, and :func:`classes_in_turn` appends each class from the
-    iterator to it. The trees of a class differ only in the choice of the root."""
+    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The function
+    :func:`classes_in_turn` takes classes from the iterator and stores them in the list. The trees of a class
+    differ only in the choice of the root."""
     return [], _classes(vertices)
 
 

@@ -1,19 +1,21 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
-Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. D_q and D_mu denote derivatives in
-q and mu. Each vertex of a tree represents a derivative of H. There are two kinds of trees, and both may
-contain subtrees of both kinds:
+Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. The vertices of a tree represent
+derivatives of H. A g-valued tree denotes an element of g, and a g*-valued tree denotes an element of g*. A
+word is a sequence of g-valued trees, which are its letters. A multiset contains g*-valued trees. There are
+three kinds of trees:
 
-- A g-valued tree ``t = (w, M)`` is a :class:`Velocity`. It contains a word w of g-valued trees and a multiset
-  M of g*-valued trees. It denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
-  along the covectors of M. The first letter of w acts first.
-- A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a covector. It
-  maps x to the derivative of H along the right-invariant fields of u, of x and of v, and along the covectors
-  of M. The star marks the position of x. A transport ``L(t_1 ... t_k)`` is the covector ``x -> <mu, ad t_1
-  ... ad t_k x>``.
+- A :class:`Velocity` is a g-valued tree with a word w and a multiset M. It is written (w, M) or ``o(w | M)``.
+  It denotes a derivative of H: once in mu, then in q along the right-invariant fields of the letters of w,
+  and in mu along the covectors of M. The first letter of w acts first.
+- A :class:`Force` is a g*-valued tree with two words u and v and a multiset M. It is written ``H(u * v | M)``
+  or ``f(u * v | M)``. It denotes the covector that maps x to a derivative of H: in q along the
+  right-invariant fields of u, x and v, and in mu along the covectors of M. The star marks the position of x.
+- A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. It denotes the covector that maps
+  x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w.
 
-A velocity ``o(w | M)`` also denotes the elementary Hamiltonian ``H_{q..mu..}[w; M]``, a term of the
-generating function. Equal trees are identical objects, because all nodes are interned.
+A velocity also denotes an elementary Hamiltonian, which is a term of the generating function
+(:func:`hamiltonian`). Equal trees are identical objects.
 """
 
 from __future__ import annotations
@@ -23,10 +25,10 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of nodes. A node stores three properties of the tree below
-    it: the number of vertices, the cost and the canonical text.
+    """The base class of the three kinds of trees. A tree stores its number of vertices, its cost and its
+    canonical text.
 
-    The cost measures how difficult the condition of a tree is for a reader.
+    The cost measures how difficult the order condition of the tree is to read.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -48,8 +50,7 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees. Trees are sorted by the number of vertices, then by cost, by the length
-        of the text, and by the text."""
+        """The sort key of a tree: its number of vertices, its cost, the length of its text, and its text."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
@@ -87,7 +88,7 @@ class Velocity(_Node):
             cost += p.cost
         self._describe(vertices, cost)
         # If this tree is a letter in the word of a larger tree, it adds ``nesting`` to the cost of the larger
-        # tree. Its own cost counts twice, because a deep tree is harder to read than a wide tree.
+        # tree. The factor of ``cost`` is 2, because a deep tree is harder to read than a wide tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -96,8 +97,8 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group contains the permutations of equal trees in
-        the multiset of each vertex."""
+        """The order of the symmetry group of the tree. An element of the group
+        exchanges equal trees in the multisets of the tree and its subtrees."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -123,13 +124,14 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. The group contains the permutations of equal trees in
-        the multiset of each vertex."""
+        """The order of the symmetry group of the tree. An element of the group
+        exchanges equal trees in the multisets of the tree and its subtrees."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w) with a non-empty word w. Use :func:`transport` to create trees.
+    """A g*-valued tree L(w), where w is a non-empty word of g-valued trees. Use :func:`transport` to create
+    trees.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -161,8 +163,9 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the additional cost of a word with different letters. The result is zero if all k letters are
-    equal, because the coefficient of the word is then c^k/k!, where c is the coefficient of the letter.
+    """Return the additional cost of a word with different letters. The result is zero if all letters are
+    equal, because the coefficient of such a word is simple. It is c^k/k!, where k is the number of letters
+    and c is the coefficient of the word that contains the letter once.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -171,8 +174,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the tree H(u * v | M) without the cost of the trees in M. Here u is ``before``, and
-    v is ``after``. The cost measures how difficult the condition of a tree is for a reader.
+    """Return the cost of a :class:`Force` with the words ``before`` and ``after``. The costs of the trees in
+    its multiset are not included. The class :class:`_Node` defines the cost.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -182,8 +185,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of the :class:`Transport` L(w), where w is ``word``. The cost measures how difficult
-    the condition of a tree is for a reader.
+    """Return the cost of a :class:`Transport` with the word ``word``. The class :class:`_Node` defines the
+    cost.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -198,7 +201,8 @@ def _symmetry(word: Word, momenta: Momenta) -> int:
 
 @cache
 def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
-    """Return the tree (w, M). Here w is ``word``, and M is the multiset ``momenta`` in canonical order.
+    """Return the :class:`Velocity` with the word ``word`` and the multiset ``momenta``. The trees in
+    ``momenta`` must be in canonical order.
 
     >>> canonical_velocity((), (force(), transport((velocity(),))))
     o(|f(*) L(o))
@@ -208,8 +212,8 @@ def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
 
 @cache
 def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
-    """Return the tree H(u * v | M). Here u is ``before``, v is ``after``, and M is the multiset ``momenta``
-    in canonical order.
+    """Return the :class:`Force` with the words ``before`` and ``after`` and the multiset ``momenta``. The
+    trees in ``momenta`` must be in canonical order.
 
     >>> canonical_force((velocity(),), (), ())
     f(o *)
@@ -219,8 +223,9 @@ def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
 
 @cache
 def transport(word: Word) -> Transport:
-    """Return the tree L(w) for w = t_1 ... t_k. The tree denotes the covector ``x -> <mu, ad t_1 ... ad t_k
-    x>``, where mu is the momentum at the end of the step.
+    """Return the tree L(w), where w is the word with the letters t_1, ..., t_k. The tree denotes the covector
+    that maps x to the number ``<mu, ad t_1 ... ad t_k x>``. Here mu is the momentum at the end of the step,
+    and ``<mu, y>`` is the pairing of a covector mu with y.
 
     >>> transport((velocity(),))
     L(o)
@@ -231,7 +236,7 @@ def transport(word: Word) -> Transport:
 
 
 def multiset(momenta: Momenta) -> Momenta:
-    """Return a multiset of g*-valued trees in canonical order.
+    """Sort the trees of a multiset into canonical order.
 
     >>> multiset((transport((velocity(),)), force()))
     (f(*), L(o))
@@ -240,8 +245,8 @@ def multiset(momenta: Momenta) -> Momenta:
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
-    """Return the g-valued tree (w, M). Here w is ``word``, and M is the multiset of the trees in ``momenta``.
-    The order of the trees in M does not matter.
+    """Return the :class:`Velocity` with the word ``word`` and the multiset ``momenta``. The trees in
+    ``momenta`` may have any order.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
@@ -250,8 +255,8 @@ def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
 
 
 def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
-    """Return the g*-valued tree H(u * v | M). Here u is ``before``, v is ``after``, and M is the multiset of
-    the trees in ``momenta``.
+    """Return the :class:`Force` with the words ``before`` and ``after`` and the multiset ``momenta``. The
+    trees in ``momenta`` may have any order.
 
     >>> force((velocity(),), (), (force(),))
     f(o *|f(*))
@@ -262,9 +267,10 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text. Here ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    The letters after ``H_`` are the variables in which H is differentiated. A dot is the argument of a
-    covector. The directions of right-invariant derivatives in q come before the semicolon, and the
-    directions of derivatives in mu after the semicolon.
+    The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
+    follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
+    q is an element of g, and the derivative is right-invariant. A direction in mu is a covector, and a dot
+    represents the argument of the covector.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -1,9 +1,10 @@
 """Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
 
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
-branches u of t. If the abscissae c_i are the roots of one rational polynomial, vectors are represented by
-polynomials in the abscissae (:mod:`orderconds.ring.nodal`). HLW denotes Hairer, Lubich and Wanner, *Geometric
-Numerical Integration*.
+branches u of t. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+
+For many methods, the abscissae c_1, ..., c_s are the roots of a polynomial with rational coefficients. Then a
+polynomial p can represent the vector that has the entries p(c_1), ..., p(c_s) (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -132,8 +133,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """Triple number n = 1, 2, ... has the form (k, j, weight_j). It defines the partial sum with number
-        n: partial sum k plus weight_j x_j. Partial sum 0 is zero."""
+        """The definitions of the partial sums s_1, s_2, .... A triple (k, j, weight_j) at index n - 1 means
+        s_n = s_k + weight_j x_j. The sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:
@@ -150,7 +151,7 @@ class Sums:
         return len(self._ends)
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
-        """Return the sum of weight_j x_j over the pairs (j, weight_j) of each row."""
+        """Return one number for each row: the sum of weight_j x_j over the pairs (j, weight_j) of the row."""
         values = [self._zero]
         for before, place, weight in self._steps:
             values.append(values[before] + weight * x[place])

@@ -10,18 +10,22 @@ First bound: in each argument, take the terms that have at least two letters and
 brackets with new letters contribute to these terms. For each argument, the sum of these terms is an element
 of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
-Second bound: in each argument, take the terms with exactly one new letter. For each argument, the sum of
-these terms has the form sum_n ad_(P_n) q_n with polynomials P_n. Here ad_(P) is the operator that results
-from P if each letter q is replaced by the operator ad_q: x -> [q, x]. Let S be the space that these sums
-span, and d the dimension of S. Consider the first bracket with new letters that the program computes. Let x
-be the sum of those terms of the bracket that contain exactly one new letter. The factors of the bracket
-contain no other brackets with new letters. Hence all polynomials P_n of x are Lie elements. Suppose that
-every non-zero element of S has a polynomial P_n that is not a Lie element. Then x is zero or not in S. Form
-such a sum for each of the N brackets. If x is zero, the other N - 1 sums must span S. If x is not in S, the N
-sums must span a space that contains x and S. In both cases, N is greater than d.
+Second bound: in each argument, take the terms that have at least two letters and exactly one new letter. Let
+the sum of these terms be called the linear part of the argument. It has the form sum_n ad_(P_n) q_n, where
+q_n are the new letters, and P_n are polynomials in the old letters. The operator ad_(P) is the polynomial P
+with the operator ad_q in place of each letter q, where ad_q x = [q, x]. Let S be the space that the linear
+parts of all arguments span, and d the dimension of S.
 
-The bound for all brackets is the sum of two bounds: for the brackets with new letters, and for the brackets
-without new letters.
+In the same way, each of the N brackets has a linear part. These N linear parts span a space that contains S.
+Hence N is at least d. Now assume that every non-zero element of S has a polynomial P_n that is not a Lie
+element. Then N is greater than d, for the following reason. Of the N brackets, take the one that the program
+computes first, and let x be its linear part. The factors of this bracket contain no brackets with new
+letters. Therefore all polynomials P_n of x are Lie elements, and x is zero or not in S. If x is zero, N - 1
+linear parts suffice to span a space that contains S. If x is not in S, the N linear parts span a space that
+is larger than S.
+
+A lower bound for the number of all brackets is the sum of two lower bounds. One is the bound for N. The other
+is a lower bound for the number of brackets without new letters.
 """
 
 from __future__ import annotations
@@ -35,8 +39,9 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
     """Return a map from n >= ``first`` to the polynomial P_n. The module docstring defines ad_(P_n).
 
-    The polynomial x is a sum of letters and brackets. The terms of the brackets with exactly one letter of
-    index at least ``first`` add up to ``sum_n ad_(P_n) q_n``. Here q_n is the letter with index n.
+    The polynomial x must be a sum of letters and brackets, and q_n is the letter with index n. The letters
+    with n >= ``first`` are the new letters. Take the terms of x that have at least two letters and exactly
+    one new letter. The sum of these terms is ``sum_n ad_(P_n) q_n``.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -52,8 +57,9 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
     """Return a polynomial that is zero if and only if x is a Lie element. The polynomial x must have no
     constant term.
 
-    The result is x - D(x), where D maps a word of n letters to its right-normed bracket, divided by n. By
-    Dynkin's theorem, D(x) = x if x is a Lie element.
+    The result is x - D(x). The linear map D replaces a word of n letters by its right-normed bracket divided
+    by n. For example, D maps the word a b c to [a, [b, c]]/3. By the theorem of Dynkin, Specht and Wever, x
+    is a Lie element if and only if D(x) = x.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -70,12 +76,12 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in every program that computes ``arguments``. These are
-    the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the exponential of
-    the step.
+    """Return a lower bound for the number of brackets in every program that computes ``arguments``. The list
+    contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the
+    exponential of the step.
 
-    The order of the method depends on terms of the largest grade of the algebra only in u. Therefore the
-    function ignores these terms in u_1, ..., u_s.
+    The order of the method does not depend on terms of the largest grade in u_1, ..., u_s. Therefore the
+    function ignores these terms. It considers terms of the largest grade only in u.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -85,7 +91,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Terms of the largest grade are needed only in the argument of the step.
+        # The order depends on terms of the largest grade only in the argument of the step.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

@@ -1,5 +1,5 @@
-"""Reduction of the number of terms of a :class:`orderconds.series.brackets.BracketProgram`, without
-additional brackets. Multiples of a bracket are added to another bracket with the same left factor.
+"""Simplification of a :class:`orderconds.series.brackets.BracketProgram`: the same number of brackets, but
+fewer terms. For this purpose, a multiple of one bracket is added to a second one with the same left factor.
 
 Let B = [x, y] and C = [x, z] be brackets, and let t be a number. Then D = C + t B = [x, z + t y] is also one
 bracket. The program may compute D in place of C, because C = D - t B.
@@ -18,9 +18,9 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
     """Return a program that computes the same arguments, if possible with fewer terms.
 
-    Multiples of a bracket are added to another bracket until no addition reduces the number of terms. The
-    ring must have division and decide whether an element is zero. In the example, the term k2 is removed from
-    the second bracket.
+    The function adds a multiple of one bracket to a later one if this reduces the number of terms. It repeats
+    this step until no more terms can be removed. The ring must have division and decide whether an element is
+    zero. In the example, -2 B1 is added to B2, so that B2 no longer contains k2.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -49,10 +49,10 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield programs in which a multiple of one bracket has been added to a later bracket with the same left
-    factor.
+    """Yield modified programs. In each of them, a multiple of one bracket is added to a later bracket with
+    the same left factor.
 
-    Each multiple is chosen so that one term of the program vanishes.
+    The multiple is chosen so that at least one term in a row of the program vanishes.
     """
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]

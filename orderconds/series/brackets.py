@@ -2,14 +2,14 @@
 simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
-step size. Let q_j be the sum of k_j and a combination of earlier stage values. This combination is chosen so
-that q_j has the highest possible grade. A method of order p requires the arguments of the stages up to grade
-p - 1, and the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999)
-957; Casas and Owren, BIT 43 (2003) 723).
+step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples are chosen
+so that q_j has the highest possible grade. A method of order p requires the arguments of the stages up to
+grade p - 1, and the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357
+(1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-The arguments are then expressed one after another by stage values, earlier brackets and new brackets. A
-search finds expressions with few new brackets. If a linear combination of two arguments needs fewer brackets
-than each of the two arguments, the combination is computed first.
+A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. A
+linear combination of two arguments may need fewer brackets than each of the two arguments. Then the program
+computes the combination before the arguments.
 """
 
 from __future__ import annotations
@@ -38,9 +38,10 @@ Row = dict[Name, Element]
 class BracketProgram:
     """A program that computes the arguments of the exponentials in one step of a method.
 
-    The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The step of size h is exp(u)
-    y0 with the argument u. Several arguments may use the same bracket. A row contains the coefficients of a
-    linear combination of the elements h k_j and of earlier brackets.
+    The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The result of a step of size h
+    is exp(u) y0 with the argument u. Several arguments may use the same bracket. A row represents a linear
+    combination of elements h k_j and brackets. It maps the names of the elements and brackets to their
+    coefficients.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
@@ -75,15 +76,14 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return a program with few brackets that has the same order as the Runge-Kutta-Munthe-Kaas method of an
-    explicit tableau (A, b).
+    """Return a program with few brackets for an explicit tableau (A, b). The program has the same order as
+    the Runge-Kutta-Munthe-Kaas method of the tableau.
 
-    The tableau must have the order ``order``. The ring must have division and decide whether an element is
-    zero. The function searches for a program with a limited number of brackets. The equations for the
-    coefficients of the program may have several solutions. In the first search, the free coefficients are
-    zero; ``attempts`` further searches use small pseudorandom numbers. If all searches fail, one more bracket
-    is allowed, and the searches are repeated. Raises :class:`~orderconds.errors.InputError` for an implicit
-    tableau.
+    The order of the tableau must be ``order``. The ring must have division and decide whether an element is
+    zero. The function searches for a program with a limited number of brackets. The coefficients of the
+    program solve equations with free parameters. First, these parameters are zero. Then ``attempts`` choices
+    of small pseudorandom numbers are tried. If all searches fail, the function repeats them with one more
+    bracket. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -124,8 +124,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair (grade, coefficients) for each combination q_j of the module docstring. The second entry
-    contains the coefficients of the stage values k_1, ..., k_j in q_j."""
+    """Return a pair (grade, coefficients) for each combination q_j of the module docstring. The list
+    ``coefficients`` contains numbers c_1, ..., c_j with q_j = c_1 k_1 + ... + c_j k_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -168,9 +168,9 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return, for each stage i, the combinations of arguments that the program computes before u_i.
 
     A combination has the form u_j - c u_i, where c is a number, and u_i and u_j are the arguments of the
-    stages i and j with j > i. It is returned if a suitable number c makes it simpler than both arguments, so
-    that it needs fewer brackets. A term of u_j that is a single letter is omitted if this letter is computed
-    after u_i.
+    stages i and j with j > i. The function returns a combination only if it needs fewer brackets than each of
+    the two arguments. A term of u_j that consists of one letter is omitted if this letter is computed after
+    u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -190,15 +190,16 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 class _Shape:
     """The shape of the new brackets that are used to express one argument.
 
-    The pool is the list of known elements, and q_1 is its first element. The symbols x, y, z_n and w_e denote
+    The pool is the list of known elements, and q_1 is its first element. The symbols x, y, z_n and w_n denote
     unknown linear combinations of elements of the pool.
 
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: True if x may be non-zero. In this case the second pool element has the coefficient one in
-      y.
-    - ``inner``: the number k of nested brackets C_n = [q_1, z_n + C_(n+1)] for n = 1, ..., k. Here C_(k+1) is
-      zero.
-    - ``extra``: the indices of pool elements e. There is one bracket [e, w_e] for each of these elements.
+    - ``leading``: True if x may be non-zero. In this case, the coefficient of the second pool element in y is
+      one.
+    - ``inner``: the number k of nested brackets C_1, ..., C_k. They have the form C_n = [q_1, z_n + C_(n+1)],
+      where C_(k+1) is zero.
+    - ``extra``: indices of pool elements. For each index n there is a bracket [e_n, w_n], where e_n is the
+      pool element with this index.
     """
 
     outer: bool = False
@@ -213,8 +214,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield an infinite sequence of shapes (:class:`_Shape`), in the order of increasing numbers of brackets.
-    The number of known elements is ``pool``."""
+    """Yield an infinite sequence of shapes (:class:`_Shape`) with increasing numbers of brackets. ``pool`` is
+    the number of known elements."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -272,9 +273,8 @@ class _Search:
         """Express an argument, up to grade ``limit``, by the pool and by new brackets of the given shape.
         Return the row of the argument, or None if no suitable brackets are found.
 
-        The equations contain products of the unknowns x and y of :class:`_Shape`. In these products, each
-        iteration replaces y, or some coefficients of x, by known values. Then it solves the resulting linear
-        equations.
+        The equations contain products of the unknowns x and y of :class:`_Shape`. In each iteration, known
+        values replace one factor of every such product. The function solves the resulting linear equations.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -302,8 +302,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements of least grade. The first two elements of the pool are not
-        considered."""
+        """Return the indices of those elements of ``pool[2:]`` that have the least grade. Indices are counted
+        from the beginning of ``pool``."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -324,8 +324,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. The
-        choice among several solutions may be random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
+        there are several solutions, a random one may be returned."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -344,8 +344,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return a pair (name, polynomial) for each unknown number in the expression of the argument. The
-        linear equations contain the product of the unknown number and the polynomial."""
+        """Return a pair (name, polynomial) for each unknown of the linear equations. The polynomial is the
+        coefficient of the unknown."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -366,9 +366,13 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the new brackets of a shape to the pool. ``numbers`` contains the values of the unknowns.
-        Return three values: the row of the resulting argument, the argument as a polynomial, and the linear
-        combination y that :class:`_Shape` defines."""
+        """Add the new brackets that ``shape`` describes to the pool, and return three values. ``numbers``
+        maps the names of the unknowns to their values.
+
+        - The row of the argument.
+        - The argument as a polynomial.
+        - The linear combination y of :class:`_Shape` as a polynomial.
+        """
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
