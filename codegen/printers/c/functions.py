@@ -1,9 +1,8 @@
 """Prints functions in C: types, declarations and statements.
 
-The functions are given in the run representation (:mod:`codegen.run.language`). It does not depend on the
-target language. A scalar that is assigned once is ``const``. An array parameter
-that the function does not change is also ``const``. Arrays are copied by ``memcpy``, and records are set to
-zero by ``memset``.
+The functions are given in the run representation (:mod:`codegen.run.language`), which is the same for
+all target languages. A scalar that is assigned only once is ``const``. An array parameter is ``const`` if the
+function does not change the array. Arrays are copied by ``memcpy``, and ``memset`` sets records to zero.
 """
 
 from __future__ import annotations
@@ -43,14 +42,17 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""If more than this number of short statements follow one another, several of them share a line."""
+"""The largest number of consecutive short statements that are printed on separate lines.
 
-ONE_TEST = "All values x are finite if their sum is finite or each x - x is 0. A sum may overflow."
+In a longer sequence, several statements share a line.
+"""
+
+ONE_TEST = "If the sum is finite, all values x are finite. If it overflows, each x - x must be 0."
 
 
 class FunctionPrinter:
     """Writes the functions of one module in C. ``unit`` contains all records, tables and functions of the
-    module. Their names in C start with ``prefix``.
+    module. In C, the names of these objects start with ``prefix``.
     """
 
     def __init__(
@@ -72,21 +74,21 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the name of the variant of the function ``name`` that the emitted code calls.
+        """Return the name, without prefix, of the C function that computes the function ``name``.
 
-        If ``near`` is true, this is the variant without branches. It is valid only for arguments near zero.
+        If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
         # Loops over lanes (the systems of a batch) or sites evaluate sines and cosines of small arguments by
         # polynomials. Scalar functions use the same polynomials for small arguments, so that the roundings
-        # are equal. A module without such loops calls no variants.
+        # are equal. A module without loops over lanes or sites calls sin and cos of the C library.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of a scalar of the given kind."""
-        # Counts have the type size_t, because indices of other types would need conversions, and -Wconversion
-        # would warn.
+        # Counts and array indices have the type size_t. C would convert an index of another type implicitly,
+        # and -Wconversion would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
@@ -96,7 +98,7 @@ class FunctionPrinter:
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter.
 
-        In a ``header``, array sizes have no ``static``, because C++ does not allow it.
+        If ``header`` is true, array sizes have no ``static``, because C++ does not allow the keyword there.
         """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
@@ -118,8 +120,8 @@ class FunctionPrinter:
         # Scalars are passed by value, so ``const`` would have no meaning for callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array may be NULL. A ``static`` size would exclude NULL, so the array is declared as a
-        # pointer.
+        # An optional array is declared as a pointer without a size, because the caller may pass NULL. A size
+        # with ``static`` promises that the pointer is not NULL.
         if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -128,15 +130,15 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of the head of a function, or of its prototype if ``header`` is true."""
-        # Private functions are static, so that the compiler may inline them. Their names have the prefix, so
-        # that one file may include two modules.
+        # Private functions are static, so that the compiler may inline them. The names start with the
+        # prefix of the module, so that one C file can contain the code of two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         # A function with many scalar parameters receives them in one array.
         together = self.packed[function.name]
         listed = [f"const {self.real} {PACKED}[static {len(together)}]"] if together else []
         listed += [self.parameter(function, p, header) for p in function.parameters if p not in together]
-        # Commas stay with the parameter before them, so no line begins with a comma.
+        # Each comma is part of the preceding segment, so no line begins with a comma.
         segments = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
         return fill(
             f"{storage}{kind} {self.called(function.name)}(", segments, ";" if header else "", separator=""
@@ -226,7 +228,7 @@ class _Body:
             # A declaration has a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
-            # Only statements that copy a value share lines. Several sums on a line would be hard to read.
+            # Statements with sums do not share lines, because several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
             # Declarations and statements keep their order. Only the line breaks change.
             groups += [(False, before)] if before else []
@@ -240,12 +242,12 @@ class _Body:
         return lines
 
     def before(self, statement: Statement) -> list[str]:
-        """Return the declarations that must precede a statement.
+        """Return the lines that declare variables before a statement.
 
-        Consecutive variables of the same type share a declaration.
+        One declaration contains several variables if they are consecutive and have the same type.
         """
-        # Some variables are assigned inside a loop or branch and read after its end. They are declared before
-        # the loop or branch.
+        # A variable that is assigned inside a loop or branch may be read after the end of the loop or branch.
+        # Such a variable is declared before the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -284,14 +286,15 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the directives before a loop. They let a compiler reorder the iterations of the loop."""
+        """Yield directives that allow a compiler to reorder the iterations of the loop that follows."""
         # The macro INDEPENDENT is a pragma that allows vector instructions. For compilers other than gcc and
         # clang it is empty.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
             clauses = []
-            # OpenMP needs one clause for each operation. The dictionary keeps the order of the operations.
+            # An OpenMP clause contains all variables with the same operation. ``dict.fromkeys`` removes
+            # repeated operations and keeps their order.
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
@@ -309,16 +312,16 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # The emitted code has a comment at each test for finite numbers, negated or not.
+        # A test whether several numbers are finite, or the negation of this test, is printed with a comment.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # If the inner branch needs declarations before its test, ``else if`` is not possible.
+        # If declarations must precede the ``if`` in the else part, ``else if`` is not possible.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
-            # The first line of the inner branch is its test, which follows ``else`` on the same line.
+            # The first line of the ``if`` statement in the else part follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
             yield from rest
@@ -331,7 +334,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # If the body is executed at least once, the test comes at the end.
+        # A ``do`` loop evaluates the test after the body, so the body is executed at least once.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
@@ -342,14 +345,14 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the type of the target if the statement declares the target, otherwise an empty text.
+        """Return the C type of ``target``, with ``const`` if the target is assigned only once.
 
-        If the variable is assigned only once, the word ``const`` precedes the type.
+        If the statement does not declare the target, the result is an empty text.
         """
-        # Only plain names are declared. An entry of an array belongs to a declared array.
+        # If the target is an entry of an array, no declaration is needed, because the array is declared.
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # The keys of ``declared.by`` are ids, because equal statements at different places declare different
-        # variables. If this statement does not declare the variable, ``constant`` is None.
+        # Equal statements may differ in what they declare, so the keys of ``declared.by`` are ids.
+        # If this statement does not declare the target, ``constant`` is None.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -363,23 +366,22 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
-            # If all bytes of an integer or of an IEEE number are zero, its value is 0.
+            # ``memset`` sets all bytes to zero. Integers and IEEE numbers with zero bytes have the value 0.
             yield f"memset({record});"
             return
         if target.shape:
-            # Compilers replace a memcpy of constant size by moves. Source and target never overlap.
+            # ``memcpy`` is allowed, because the source and the target never overlap.
             copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
+        # ``x = x + y`` is printed as ``x += y``. This keeps the order of the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         # C does not allow ``+=`` in a declaration.
         if changed and not kind:
             more = self.terms.text(value.args[1])
             if value.op in "+-" and more.line == "1":
-                # A target ``*x`` gets parentheses, because ``*x++`` would increment the pointer and not the
-                # value.
+                # For the target ``*x``, ``(*x)++`` is printed, because ``*x++`` increments the pointer ``x``.
                 yield f"({name}){value.op * 2};" if name.startswith("*") else f"{name}{value.op * 2};"
                 return
             yield from fill(f"{name} {value.op}=", more.segments, ";")
@@ -389,7 +391,8 @@ class _Body:
     def extent(self, target: Term, value: Term) -> str:
         """Return the number of bytes to copy, as an expression in C."""
         parameters = {p.text for p in self.function.parameters}
-        # ``sizeof`` of an array parameter is the size of a pointer, so it is used for local arrays only.
+        # ``sizeof`` of a local array is the number of its bytes. ``sizeof`` of an array parameter is only the
+        # size of a pointer.
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:
                 return f"sizeof {self.terms.line(term)}"
@@ -403,12 +406,12 @@ class _Body:
         name = statement.name
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
-        # All fields of a new record are zero. For example, the age 0 means that no matrix is stored.
+        # All fields of a new record are zero.
         if name.kind is Kind.RECORD:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
         kind = self.printer.type_of(name.kind)
-        # In C an initialiser with one zero sets all entries to zero.
+        # In C the initialiser ``{0.0}`` sets all entries of an array to zero.
         if statement.zero:
             yield f"{kind} {identifier}{size} = {{{literal(self.printer.precision, 0.0)}}};"
             return
@@ -434,14 +437,13 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
-            # The user supplies the function ``event`` and the pointer ``data``. The function writes its
-            # values into an array.
+            # The user supplies the function ``event`` and the pointer ``data``. ``event`` writes the
+            # values of the event functions into the array ``results[0]``.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``given[0]`` is the text ``input, context``. The function ``input`` is called, and ``context``
-            # is its last argument.
+            # ``given[0]`` is the text ``input, context``. The emitted call is ``input(..., context)``.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
@@ -458,7 +460,8 @@ class _Body:
             return
         if results:
             (target,) = results
-            # A single result is returned by value. The statement may also declare the variable ``target``.
+            # A single result is returned by value. If the statement declares ``target``, ``kind`` returns
+            # the type of ``target``.
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
 
@@ -468,9 +471,9 @@ class _Body:
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
-        # After the arguments for the parameters, ``given`` contains pointers for the results.
+        # ``given`` ends with pointers to the results, which have no entry in ``parameters``.
         others += given[len(parameters) :]
-        # If the values are already an array in the right order, no copy is needed.
+        # If the values are the first entries of an array, this array is passed without a copy.
         array = whole(values, others)
         if array:
             yield from fill(start, _arguments([array, *others]), ";", separator="")
@@ -488,5 +491,5 @@ def _arguments(given: Sequence[str]) -> tuple[str, ...]:
 
 
 def _is_short(line: str) -> bool:
-    """Return True if a statement is a single copy without a declaration."""
+    """Return True if a statement assigns one name or number to a variable, as in ``a = b;``."""
     return len(line.split()) == 3 and line.endswith(";")

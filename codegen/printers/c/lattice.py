@@ -12,7 +12,7 @@ SIDES = {1: 1000, 2: 64, 3: 16}
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example program. It runs the lattice from a state that is equal at all sites."""
+    """Return the lines of an example program. The initial state of the lattice is equal at all sites."""
     real, prefix, n = interface.format, interface.prefix, interface.dimension
     # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"
@@ -20,7 +20,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    # For a large dimension n the side is short, because the number of sites is side^n.
+    # The number of sites is side^n. For n > 3, the side has 8 sites.
     side = SIDES.get(n, 8)
     total = side**n
     arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]

@@ -1,6 +1,6 @@
 """Prints a step on Fourier modes as a C module, with the files PREFIX.h and PREFIX.c.
 
-A third file, PREFIX_fft.c, contains Fourier transforms. Its use is optional.
+A third file, PREFIX_fft.c, contains Fourier transforms. A user may supply other Fourier transforms instead.
 """
 
 from __future__ import annotations
@@ -61,7 +61,8 @@ OWN = RESERVED | frozenset(
         "CMPLX",
     ]
 )
-"""Names that the module defines, and the names of its arguments and local variables."""
+"""Names that the parameters of a scene must not have in the emitted code: keywords of C and names that the
+module uses."""
 
 POINTS = 128
 """The number of grid points in the usage example."""
@@ -72,10 +73,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # The template has variables f0, f1, ... for factors, and value1, ... for values of the nonlinear part N.
+    # In the template, f0, f1, ... are factors of coefficients, and value1, ... are values of the function N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
-    # The template also defines arrays. They contain the derivatives of u and the terms of N at grid points.
+    # At the grid points, array0, ... are derivatives of the state u, and term0, ... are the terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
     # In the module, ``points`` is the array of grid points (the space coordinate), and ``t`` is the time.
     names = {"t": "t", step.space: "points"}
@@ -115,10 +116,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The workspace has one spectrum for each value of the nonlinear part N, and four further spectra: the
-        # old state, the new state, the argument of N, and a scratch spectrum.
+        # The workspace contains the spectra of the old state, the new state, the argument of the nonlinear
+        # part N, and temporary results. It also contains one spectrum for each evaluation of N.
         "spectra": 4 + len(step.evaluations),
-        # Each derivative of u in N needs an array of values at the grid points, and so does each term of N.
+        # Derivatives of u in N and terms of N are evaluated at the grid points. Each of them needs an array.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -130,11 +131,11 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return a subset of the names ``symbol``, ``initial`` and ``formulas``.
+    """Return the names of the kernels that depend on the wave number or on the space coordinate.
 
-    - ``symbol`` is included if the Fourier symbol of the linear part depends on the wave number.
-    - ``initial`` is included if the initial state depends on the space coordinate.
-    - ``formulas`` is included if the nonlinear part depends on the space coordinate.
+    - The result contains ``symbol`` if the Fourier symbol of the linear part depends on the wave number.
+    - The result contains ``initial`` if the initial state depends on the space coordinate.
+    - The result contains ``formulas`` if the nonlinear part depends explicitly on the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),
@@ -149,7 +150,7 @@ def _terms(write: ModeFormulas, terms: tuple[Term, ...]) -> list[tuple[str, int 
 
 
 def _usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a program that runs steps from the initial state of the scene."""
+    """Return the lines of an example program, which integrates from the initial state of the scene."""
     prefix = interface.prefix
 
     def number(x: float) -> str:
@@ -192,7 +193,7 @@ def _usage(interface: Interface, recipe: Recipe) -> list[str]:
 
 
 def mode_prototypes(interface: Interface) -> str:
-    """Return declarations of the functions of a module in the form that cffi reads."""
+    """Return declarations of the public functions of a module in the form that cffi reads."""
     prefix = interface.prefix
     parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
     # In C a function without parameters is declared with ``void``.

@@ -40,31 +40,34 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 # By default gcc assumes that a program observes floating-point exceptions. gcc 12 on x86-64 without AVX-512
 # then does not vectorise loops that select one of two values. -fno-trapping-math removes this assumption.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
+"""Additional flags for modules that integrate a batch of systems or a lattice.
+
+Together with -ffp-contract=off, these flags do not change results.
+"""
 
 FRAMES = 640
-"""The stack bound includes this number of bytes for return addresses, registers and frames of helpers.
+"""The number of bytes in the stack bound for return addresses, saved registers and calls of helper functions.
 
 The stack bound is an upper bound on the stack that one call of an emitted function needs (:func:`stack`).
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The number of bytes in the stack bound for each floating-point number of a step.
+"""The stack bound contains this number of bytes for each floating-point number of a step.
 
 ``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. Steps that solve
-equations need more space, because an optimiser computes common subexpressions before the loop that solves the
-equations.
+equations need more space: an optimiser moves common subexpressions out of the loop and stores their values.
+The measured space of these steps was at most 8.8 bytes for each number in double precision, and at most 8.0
+bytes in single precision.
 
-Both numbers are also used in single precision. There, an optimiser stores pairs of floats in registers of 16
-bytes, so each float needs 8 bytes. For steps that solve equations, at most 8.8 bytes for each number were
-measured in double precision, and at most 8.0 bytes in single precision.
+Both constants are also used in single precision, because an optimiser stores pairs of floats in registers of
+16 bytes. Each float then needs 8 bytes.
 """
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted stack bound, in bytes. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers with which tests measure the stack of emitted functions and compare it with the bound."""
+"""The compilers and flags with which tests compare the stack bound with the measured stack."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -79,21 +82,21 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # ``sweeps`` makes C compilers inline Stumpff functions. This is useful in loops that solve equations,
-        # because they call the functions often. Elsewhere it would only make the code longer.
+        # If ``sweeps`` is true, C compilers inline the Stumpff functions. Loops that solve equations call
+        # these functions often. Other code would only become longer.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
-        # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
+        # Some C11 compilers have no arrays of variable size, so ``invert`` has room for the largest matrix.
         widest=max(inverted_sizes(kernel), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
         batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # Each line of a C comment begins with a star and spaces, and lines have at most 100 characters.
+    # The text has at most 96 characters in a line, because a star and spaces precede the text in a C comment.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names come from users. ``comment`` changes ``*/`` in them, which would end the C comment.
+        # Titles and names from users may contain ``*/``. ``comment`` prints ``* /`` in its place.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -120,7 +123,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # Prototypes and definitions are printed by the same functions, so they cannot differ.
+        # ``head`` also prints the first lines of the definitions, so definitions and prototypes agree.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -130,8 +133,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
     """Return the texts of the header and of the source."""
     env = environment("c")
-    # The functions of a lattice module have special parameters, such as ``shape``, so the header has its own
-    # template.
+    # The functions of a lattice module have special parameters, such as ``shape``. Therefore the header of a
+    # lattice module has a separate template.
     head = "lattice.h.j2" if interface.dimension else "module.h.j2"
     return {
         f"{interface.module}.{kind}": env.get_template(f"module/{template}").render(variables)
@@ -143,11 +146,12 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     """Return the lines of the definitions of a module: records, tables, functions."""
     # Public records are in the header, because callers allocate them.
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
-    # C requires a definition before its use, so tables precede functions.
+    # In C a table must be defined before a function uses the table.
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # C has no closures, so a step reads constant inputs through a function with a context pointer.
+        # A step calls a function for its inputs. If the inputs are constant, the step calls the function
+        # ``hold``, which copies the values to which ``context`` points.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -173,8 +177,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helpers and library functions that a module calls."""
-    # A module with loops over lanes (systems of a batch) or sites calls variants of sin, cos and the Stumpff
-    # functions. The variants have names such as ``sin_near``.
+    # A module with loops over lanes (systems of a batch) or sites has special helpers for sin, cos and the
+    # Stumpff functions, such as ``sin_near``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -190,9 +194,10 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the functions that are called in a module with loops over lanes or sites.
+    """Return the names of the helpers that are called in a module with loops over lanes or sites.
 
-    A lane is one system of a batch. If a function has variants, the result contains the called variant.
+    A lane is one system of a batch. For a function with special helpers, such as ``sin``, the result contains
+    the name of the helper that is called, such as ``sin_near``.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -233,15 +238,16 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The local variables of the emitted function ``invert`` need FRAMES / 2 more bytes. A kernel that is
-    # inlined in the function ``run`` has no stack frame, so the bound is smaller by FRAMES / 2 bytes.
+    # If the step inverts matrices, the local variables of the emitted function ``invert`` need additional
+    # FRAMES / 2 bytes. If the kernel is inlined in the function ``run``, the kernel has no stack frame, so
+    # FRAMES / 2 bytes are subtracted.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
-    # The bound is a multiple of 64 bytes, because compilers align vector registers on the stack.
+    # The bound is rounded up to a multiple of 64 bytes, because compilers align vectors on the stack.
     bound = -(-(each * numbers + frames) // 64) * 64
     if bound > LARGEST_STACK:
         raise SceneError(
@@ -250,8 +256,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
-    # Without optimisation, each number takes ``size`` bytes. The margin is the bound minus this space and
-    # minus ``frames``.
+    # Without optimisation, a call needs about ``size * numbers + frames`` bytes. The margin is the difference
+    # between the bound and this number.
     margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
     return (
         f"at most {bound} bytes with {MEASURED}{margin}; "
@@ -260,14 +266,14 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
-    """Return the names that the module declares at file scope. No variable may hide these names."""
+    """Return the names that the printer itself uses. Variables of emitted functions get other names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all helpers are reserved, also of those that the module does not call. Therefore the names
-    # of variables do not depend on the called helpers.
+    # The names of all helpers are reserved, even if the module calls only some of the helpers. Thus the names
+    # of variables do not depend on which helpers the module calls.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -318,11 +324,11 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the function ``integrate``, which runs to a given end time.
+    """Return the declaration of the function ``integrate``, which integrates to a given end time.
 
-    If the module has no such function, the result is ''.
-
-    ``passed`` is the declaration of parameters and inputs.
+    If the module has no function ``integrate``, the result is an empty text. ``passed`` is the declaration of
+    the arguments for the parameters and inputs of the scene, and ``statistics`` is the declaration of the
+    argument for the statistics.
     """
     if not interface.integrated:
         return ""
@@ -338,7 +344,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
     )
     outputs = f"const {real} *times, size_t count, {real} *rows, size_t *written, "
-    # Without step control no step is rejected, so a single count is returned.
+    # Without step control no step is rejected, so only the number of completed steps is returned.
     last = "size_t *accepted, size_t *rejected" if interface.controlled else "size_t *completed"
     return (event if interface.events else "") + (
         f"int {prefix}integrate({real} *state, {chosen}size_t limit, {passed}{outputs}"
@@ -347,7 +353,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return the lines of a function that supplies run-time inputs in the example. All inputs are zero."""
+    """Return the lines of a C function for the usage example. It sets all run-time inputs to zero."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
@@ -362,12 +368,12 @@ def example_input(interface: Interface) -> list[str]:
 
 
 def example(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a program that uses the module."""
+    """Return the lines of an example program that uses the module."""
     return lattice_usage(interface, recipe) if interface.dimension else usage(interface, recipe)
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a program that runs the step from the scene's initial state."""
+    """Return the lines of an example program, which integrates from the initial state of the scene."""
     real = interface.format
     # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"
@@ -382,7 +388,8 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
             # A static array starts with zeros and needs no space on the stack.
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
-            # The example is part of a block comment, so it contains only line comments.
+            # The example is part of a C block comment. Block comments cannot be nested, so the example
+            # contains only line comments.
             *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
     # The example starts at t = 0.
