@@ -1,14 +1,14 @@
 """The exhaustive search runs every recipe of the library, to check the result of the usual search.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
-first runs each recipe with more and more steps. The time of a step is computed from its counted operations.
-The number of steps for the required error is computed from the measured error. The product of both, divided
-by the safety factor SAFE, is a lower bound of the CPU time of the recipe.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
+each recipe and measures its error. The number of steps for a required error is predicted from this error. The
+time of a step is predicted from its operations. The product of the two numbers is the predicted CPU time. It
+is divided by the safety factor SAFE. The quotient is a lower bound of the true CPU time.
 
-For each required error, the lower bound is compared with the product of WORST and the best known time. A
-recipe is excluded if its bound exceeds this product for every required error. It is not excluded if the bound
-is unreliable (:func:`least_ratio`). The recipes that are not excluded are emitted, compiled and timed. A
-sample of the excluded recipes is also timed, to test the bound.
+For each required error, the lower bound is compared with WORST times the best known CPU time. A recipe is
+excluded if its lower bound is too large for every required error. Unreliable predictions are used with more
+caution (:func:`least_ratio`). The remaining recipes are emitted, compiled and timed. A sample of the excluded
+recipes is also timed, to test the lower bounds.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Exhausted:
     """The result of an exhaustive search.
 
     - ``known``: maps each required error to the least CPU time in seconds that was measured before this
-      search, or to infinity.
+      search. The time is infinite if nothing was measured.
     - ``recipes``: the number of recipes of the library.
     - ``results``: maps each required error to the measured runs.
     - ``raced``: the number of recipes that were emitted and timed.
@@ -60,8 +60,8 @@ class Exhausted:
     - ``copies``: the number of recipes that have the same code as another recipe.
     - ``excluded``: the number of recipes that were not timed, because the lower bounds of their CPU times
       were too large.
-    - ``nearest``: the smallest ratio of the measured time of an excluded recipe to the best time. Only a
-      sample of the excluded recipes is timed.
+    - ``nearest``: the smallest ratio t/b in a sample of the excluded recipes, where t is the measured CPU
+      time of a recipe and b is the best CPU time.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -89,7 +89,7 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; of the excluded recipes in a sample, the fastest takes "
+                "; in a sample of the excluded recipes, the fastest takes "
                 f"{self.nearest:.1f} times the best time"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
@@ -158,13 +158,16 @@ def _key(recipe: Recipe) -> Key:
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return a ratio of the predicted time to a time limit. A recipe is excluded if this ratio is above 1.
 
-    ``limits`` maps each error to its time limit in seconds. The result is the smallest ratio of all errors.
-    If the prediction is not reliable, let s be the predicted time of a single step, and L the longest time
-    limit. The result is then s/L if s > L, and otherwise 0.
+    ``limits`` maps each error to its time limit in seconds. The ratio is computed for each error, and the
+    smallest ratio is returned. ``adaptive`` is True if the recipe has step-size control.
 
-    A prediction is not reliable if the interpreted runs fail. A rough prediction, which comes from runs with
-    large errors, is reliable only for explicit recipes with equal steps. ``adaptive`` is True if the recipe
-    has step-size control.
+    A prediction is unreliable in two cases:
+
+    - The interpreted runs failed.
+    - The interpreted runs had large errors, and the recipe is implicit or has step-size control.
+
+    If the prediction is unreliable, only the predicted time s of a single step is used. Let L be the longest
+    time limit. The result is s/L if s > L, and otherwise 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -185,9 +188,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 def sampled(excluded: Sequence[T]) -> list[T]:
     """Return a sample of at most :data:`SAMPLE` excluded recipes.
 
-    The argument ``excluded`` must be sorted by :func:`least_ratio`.
-    The first half of the sample contains the first recipes. The second half is distributed evenly over the
-    remaining recipes.
+    ``excluded`` must be sorted by :func:`least_ratio`. Half of the sample is the beginning of ``excluded``.
+    The other half is distributed evenly over the remaining recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -205,8 +207,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time that a recipe needs for each error, and add the results to ``done``.
 
-    For each error, the time is divided by the best time that was known before this measurement. The smallest
-    of these ratios is returned. The result is infinity if the recipe reaches none of the errors.
+    For each error, the measured time is divided by the best time that was known before. The function returns
+    the smallest of these ratios, or infinity if the recipe reaches none of the errors.
     """
     done.codes.add(candidate.code)
     done.raced += 1

@@ -117,7 +117,7 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the tuples in ``choices`` whose requirements a recipe may satisfy all together.
+    """Return the tuples in ``choices`` for which no requirement is certainly violated by a recipe.
 
     Each tuple contains names of requirements from :data:`NEEDS`.
     """

@@ -1,10 +1,11 @@
 """Makes runs over the time span of a scene with the interpreter, which executes the program of a step.
 
-Runs with equal steps solve implicit equations by fixed-point iteration, because the interpreter needs a long
-time for the difference quotients of Newton's method. Runs with step-size control are used for stiff scenes.
-They use Newton's method, because fixed-point iteration does not converge in long steps. Their step sizes are
-chosen as in emitted code (:mod:`codegen.run.step_control`), with one difference: each step size depends only
-on the error estimate of the last step.
+Runs with equal steps solve implicit equations by fixed-point iteration. Newton's method would be slow in the
+interpreter, because it needs difference quotients.
+
+Runs with step-size control are made for stiff scenes. These runs use Newton's method, because fixed-point
+iteration does not converge in long steps. The step size is chosen as in emitted code
+(:mod:`codegen.run.step_control`), but only from the error estimate of the previous step.
 """
 
 from __future__ import annotations
@@ -36,14 +37,14 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # The number of sweeps is stored in a list. Copies of this object share the list. Therefore the sweeps
-        # of all copies are counted together.
+        # The interpreter may copy this object. The counter is a list, so that all copies share it.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return whether the iteration may end, and the change of the unknowns.
+        """Count one sweep. Return True or False, and the change of the unknowns in this sweep.
 
-        ``old`` and ``new`` are the unknowns before and after the sweep.
+        True means that the iteration may end. ``old`` and ``new`` are the unknowns before and after this
+        sweep. ``previous`` is the change of the unknowns in the previous sweep.
         """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
@@ -53,18 +54,18 @@ class CountingDomain(FloatDomain):
 class NewtonDomain(CountingDomain):
     """Arithmetic with which the interpreter solves implicit equations by Newton's method.
 
-    With other arithmetics, the interpreter first tries fixed-point iterations.
+    The value 0 of ``patience`` means that no fixed-point iterations are tried before Newton's method.
     """
 
     patience = 0
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state, and the mean number of sweeps.
+    """Make ``steps`` equal steps over the time span. Return the final state, and a number of sweeps.
 
-    A sweep is an iteration for implicit equations. The mean number is an estimate for emitted code. It is the
-    number of sweeps in a step for one system of equations. Raises ArithmeticError if a state is not finite,
-    or if the process has used ``end`` seconds of CPU time.
+    A sweep is an iteration for implicit equations. The number is the mean number of sweeps that emitted code
+    is expected to need in a step for one system of equations. Raises ArithmeticError if a state is not
+    finite, or if the process has used more than ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -90,11 +91,15 @@ def controlled_run(
 ) -> tuple[Vector, int, float]:
     """Make a run with step-size control over the time span.
 
-    Returns the final state, the number of steps (accepted and rejected), and the mean number of sweeps in a
-    step for one system of implicit equations. A sweep is an iteration. The program must have an embedded
-    solution. ``order`` is the power of the step size to which the error estimate is proportional.
-    ``tolerance`` is both the relative and the absolute tolerance. Raises ArithmeticError if steps become too
-    short, or if the process has used ``end`` seconds of CPU time.
+    Returns three values:
+
+    - the final state,
+    - the number of all steps, including the rejected steps,
+    - the mean number of sweeps (iterations) in a step for one system of implicit equations.
+
+    The program must have an embedded solution. The error estimate is proportional to h^``order``, where h is
+    the step size. ``tolerance`` is both the relative and the absolute tolerance. Raises ArithmeticError if
+    steps become too short, or if the process has used more than ``end`` seconds of CPU time.
     """
     now, last = map(float, problem.span)
     domain = NewtonDomain((last - now) / FIRST)
@@ -120,8 +125,8 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # A rejected step is repeated with a smaller step size. The step size must not grow immediately after
-        # the repeated step.
+        # After a rejected step, a shorter step is tried. If this shorter step is accepted, the next step is
+        # not longer.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 
@@ -132,8 +137,9 @@ def weighted(
     """Return the weighted norm of the error estimate of a step.
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
-    The error estimate is ``after`` - ``lower``. The norm is infinite if ``after`` or ``lower``
-    contains a number that is not finite.
+    The error estimate is ``after`` - ``lower``. Each component is divided by ``tolerance`` (1 + m), where m
+    is the larger absolute value of this component in ``before`` and ``after``. The norm is the root mean
+    square of the quotients. It is infinite if ``after`` or ``lower`` is not finite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

@@ -1,9 +1,8 @@
 """Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
-recipe is predicted from a few steps, which the interpreter makes. A bar contains two limits for a recipe: one
-for its error, and one for its CPU time. If a recipe certainly exceeds one of these limits, it cannot be the
-fastest. The interpreter then makes no steps with it.
+A recipe is a method with equal steps or step-size control, on one form of the equations. Its CPU time is
+predicted from short runs in the interpreter. A bar contains two limits for a recipe: one for its error, and
+one for its CPU time. Recipes that certainly exceed one of these limits are not run.
 """
 
 from __future__ import annotations
@@ -19,17 +18,13 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes.
-
-When it is certain that the predicted time of a recipe exceeds this limit, the interpreter makes no more steps
-with this recipe.
-"""
+"""The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes."""
 
 FRESH = 8
 """A constant that decides when the bar of a recipe is computed again.
 
 A bar contains the limits on the error and the CPU time of the recipe. It is computed again when the number of
-predictions has grown by the factor 1 + 1/FRESH.
+predictions has grown by about the factor 1 + 1/FRESH.
 """
 
 
@@ -40,17 +35,14 @@ There are several queues. The next recipe comes from the queue with the smallest
 (n + d)/EVEN + s, with the following numbers:
 
 - n is the number of recipes already taken from the queue.
-- d is the distance between the order of convergence of the methods in the queue and the usual order of fast
-  methods (:func:`usual_order`).
-- s is the slowness of the queue. Let a be the least predicted time of recipes of the same kind, and b the
-  least predicted time of all recipes. Then s = log2(a/b).
+- d is the absolute difference of two orders of convergence: the order of the methods in the queue, and the
+  usual order of fast methods (:func:`usual_order`).
+- s is the slowness log2(a/b) of the queue. Here a is the least predicted time of recipes of the same kind as
+  in the queue, and b is the least predicted time of all recipes.
 """
 
 FAILED = 4.0
-"""The slowness of a queue if all predicted times of recipes of the kind of the queue are infinite.
-
-The slowness is a term in the delay of the queue (:data:`EVEN`).
-"""
+"""The slowness of a queue (:data:`EVEN`) if recipes of the same kind have only infinite predicted times."""
 
 
 def usual_order(error: float) -> float:
@@ -70,9 +62,9 @@ step-size control. Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
-"""The key of a queue of recipes: a kind of recipe, and the order of convergence of the methods.
+"""The key of a queue of recipes: (kind of recipe, order of convergence).
 
-The queue contains the recipes of this kind and this order, sorted by the number of stages.
+All recipes in a queue have this kind and this order. They are sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -85,13 +77,12 @@ class Jobs(Sequence[Job]):
     process is free, so that its bars use all predictions up to this time.
 
     The recipes are in several queues. The next recipe comes from the queue with the smallest delay
-    (:data:`EVEN`). The delay grows whenever a recipe is taken from the queue, so that the queues take turns.
-    All methods in a queue have the same order of convergence. The delay is small if fast methods usually have
-    this order, and large if the recipes of the queue are slow.
+    (:data:`EVEN`). The delay of a queue grows whenever a recipe is taken from this queue. Therefore the
+    queues take turns.
 
     ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
-    to the goals that it may satisfy with step-size control. ``early`` contains names of methods. Their
-    recipes are predicted first, so that slower recipes can be recognised.
+    to the goals that it may satisfy with step-size control. ``early`` contains names of methods. The recipes
+    of these methods are predicted before all other recipes.
     """
 
     def __init__(
@@ -122,7 +113,7 @@ class Jobs(Sequence[Job]):
         return recipe.family, recipe.form, recipe.explicit, bool(self.controlled.get(recipe))
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job. The jobs must be read once, in the order k = 0, 1, 2, ....
+        """Return the next job. The calls must have the arguments k = 0, 1, 2, ..., in this order.
 
         Raises IndexError after the last job. This error ends a ``for`` loop over the jobs.
         """
@@ -157,9 +148,9 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness of a queue, which is a term in the delay of the queue (:data:`EVEN`).
 
-        Let a be the least predicted time of recipes of the kind of the queue, and b the least predicted time
-        of all recipes. Both times depend on the goal. The slowness is log2(a/b) for the goal with the
-        smallest a/b. Without predictions the slowness is 0.
+        Let a be the least predicted time of recipes of the same kind as in the queue, and b the least
+        predicted time of all recipes. The quotient a/b is computed for each goal. The slowness is log2 of the
+        smallest quotient, or 0 without predictions.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -175,8 +166,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Store the prediction for a recipe. The limits of later jobs use the stored predictions.
 
-        A failed prediction is not stored. In a vague prediction, the time for equal steps may be too short.
-        Such a prediction is stored only if it also contains a prediction for step-size control.
+        Predictions with a ``failure`` are not stored. A prediction is also not stored if it is ``vague`` and
+        contains no prediction for step-size control. Its time may be too short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -193,9 +184,9 @@ class Jobs(Sequence[Job]):
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
         """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
-        The bar is computed again only after several new predictions (:data:`FRESH`). Therefore it may not use
-        the most recent predictions. A rough prediction comes from runs with large errors. If the recipe can
-        run with step-size control, rough predictions for equal steps are not used.
+        To save time, the bar is computed again only after several new predictions (:data:`FRESH`). If the
+        recipe may satisfy the goal with step-size control, rough predictions for equal steps are not used,
+        because they come from runs with large errors.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -217,8 +208,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion, all methods need many steps. Therefore the first run of the next recipe has
-    # the smallest number of steps in any successful prediction.
+    # The first run of a recipe has the smallest number of steps that occurs in the successful predictions.
+    # This saves useless runs with fewer steps on a scene with fast motion, where all methods need many steps.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -1,5 +1,5 @@
-"""The Python function :func:`bench`, which measures and ranks methods on a scene. Integrators of other
-programs, such as SciPy, can be included.
+"""The Python function :func:`bench`, which measures and ranks methods on a scene. It can also measure the
+integrators of other libraries, such as SciPy.
 """
 
 from __future__ import annotations

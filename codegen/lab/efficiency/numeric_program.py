@@ -1,8 +1,7 @@
-"""Makes the program of a step faster to interpret, by replacing its operations by Python functions of
-doubles.
+"""Replaces the operations in the program of a step by Python functions, to make the interpreter faster.
 
-Each operation is evaluated once with symbols. The resulting expressions are converted to one Python function.
-This function replaces the operation. The interpreter then runs about ten times faster.
+Each operation is evaluated once with symbols. The resulting expressions are converted to one Python function
+of doubles, which replaces the operation. The interpreter then runs about ten times faster.
 """
 
 from __future__ import annotations

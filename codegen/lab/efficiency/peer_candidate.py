@@ -27,8 +27,8 @@ class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    ``equations`` are the equations in one form, by default in the coordinates of the scene. If the peer does
-    not support the scene, :meth:`measure` returns a row with the reason.
+    The peer integrates ``equations``. By default, these are the equations in the coordinates of the scene. If
+    the peer does not support the scene, :meth:`measure` returns a row that contains the reason.
     """
 
     scene: Problem
@@ -46,9 +46,10 @@ class PeerCandidate:
         self.overhead: Overhead | None = None
 
     def controls(self) -> Iterator[float]:
-        """Yield the tolerances of the runs, from loose to tight, or the numbers of steps 1, 2, 4, ....
+        """Yield the argument ``control`` of :meth:`measure` for each run, with increasing accuracy.
 
-        Tolerances are yielded if the attribute ``controlled`` of the peer is "tolerance".
+        If the attribute ``controlled`` of the peer is "tolerance", the values are tolerances. Otherwise the
+        values are the numbers of steps 1, 2, 4, ....
         """
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
@@ -56,9 +57,10 @@ class PeerCandidate:
         """Do nothing, because :meth:`measure` prepares the peer for each run."""
 
     def measure(self, control: float) -> Row:
-        """Run the peer with one tolerance or number of steps, and return the row with its error and CPU time.
+        """Run the peer, and return a row with the error and the CPU time of the run.
 
-        If the peer fails, the row contains the reason.
+        ``control`` is the tolerance or the number of equal steps. If the peer fails, the row contains the
+        reason.
         """
         assert self.equations is not None
         start = time.perf_counter()
@@ -100,10 +102,13 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with higher accuracy is needed. The runs of ``rows`` are already made.
+        """Return True if no further run is needed. ``rows`` are the results of the runs up to now.
 
-        The result is True in three cases: the next run would take too long, the peer does not support the
-        scene, or rounding errors dominate. The last case is tested only for peers with equal steps.
+        The result is True in three cases:
+
+        - The peer does not support the scene.
+        - The next run, which is more accurate, would take too long.
+        - The peer makes equal steps, and rounding errors dominate.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

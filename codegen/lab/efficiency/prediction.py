@@ -2,14 +2,14 @@
 operations.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
-the recipe over the time span with a small number of equal steps, which is doubled until the error is small.
-The error of the last run and the order of the method determine how many steps are needed for another error.
-If the error is still large with the largest number of steps, and the recipe can use step-size control, the
-interpreter also makes runs with step-size control.
-The time of a step is predicted as the sum of the times of its operations.
+the recipe over the time span with a small number of equal steps. The number is doubled until the error is
+small. The number of steps for another error is computed from this error and the order of the method. If no
+run has a small error, and the recipe can use step-size control, the interpreter also makes runs
+with step-size control. The time of a step is predicted as the sum of the times of its operations.
 
-The prediction ignores that the compiler computes common subexpressions only once. Therefore the prediction
-only decides which recipes are measured first, and which recipes are too slow to be compiled.
+The prediction is not exact. For example, it ignores that the compiler computes common subexpressions only
+once. It decides which recipes are measured first. Recipes that are predicted to be much too slow are not
+compiled.
 """
 
 from __future__ import annotations
@@ -45,28 +45,34 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The limit on the CPU time of the interpreter in seconds. After this time, no further steps are made."""
+"""The limit on the CPU time in seconds for a series of interpreted runs with equal steps.
+
+For a series of runs with step-size control, the limit is PATIENCE/2.
+"""
 
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
 
-If no interpreted run over the whole time span succeeds, only the first interval is used. The error at the end
-of the time span is then predicted as PARTS times the error at the end of the first interval.
+If the interpreted runs over the whole time span fail or have large errors, the interpreter also makes runs
+over the first interval. The error at the end of the time span is then predicted as PARTS times the error at
+the end of the first interval.
 """
 
 TRIES = 3
-"""The number of failures in succession after which fewer runs are made with methods of the same kind.
+"""The number of consecutive failures after which the interpreter makes fewer runs with a kind of method.
 
-A method fails if all its runs over the whole time span fail. After TRIES failures, the interpreter runs
-methods of this kind only on the first interval of the time span (:data:`PARTS`). Runs with step-size control
-are counted separately. After TRIES failures of such runs, they are omitted for this kind.
+With equal steps, a method fails if all its runs over the whole time span fail. After TRIES failures, methods
+of the same kind are run only over the first interval of the time span (:data:`PARTS`).
+
+With step-size control, a method fails if no run has a small error (:data:`SMALL`). After TRIES failures,
+methods of the same kind are not run with step-size control.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""The usual number of sweeps (iterations) for a system of implicit equations in a step.
+"""Numbers of sweeps (iterations) for a system of implicit equations in a step.
 
-FEWEST_SWEEPS is the smallest number of sweeps that a prediction assumes.
+A prediction uses at least FEWEST_SWEEPS. Before the first run of a method, USUAL_SWEEPS is assumed.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
@@ -76,14 +82,14 @@ FAR = 10.0
 """A method is excluded if methods of slightly higher order are predicted to be too inaccurate.
 
 Let p be the order of the method, and let e be the least error that methods of the orders p + 1 and p + 2 are
-predicted to reach in the time limit. The method is excluded if e exceeds FAR times the required error. It is
-assumed that a method of lower order does not reach the required error either.
+predicted to reach in the time limit. The method is excluded if e exceeds FAR times the required error. The
+assumption is that a method of order p is even less accurate in the same time.
 """
 
 CALL = 8.0
 """The time in nanoseconds that a run needs in each step to read and write the state.
 
-It is added to the time of the operations of the step.
+This time is added to the time of the operations of the step.
 """
 
 DIGITS = 16
@@ -101,14 +107,14 @@ class Prediction:
     - ``outside``: the time in nanoseconds of the operations of a step that are not in implicit equations.
     - ``sweep``: the time in nanoseconds of one sweep (iteration) over all implicit equations of a step.
     - ``sweeps``: the mean number of sweeps in a step.
-    - ``steps``: the number of steps to which ``error`` belongs.
+    - ``steps``: the number of steps for which ``error`` is predicted.
     - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
     - ``rough``: True if no interpreted run with equal steps over the whole time span had a small error
       (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is finite but not small, with at most MANY_STEPS steps. The predicted time
-      for a small error may then be too short.
-    - ``failure``: the reason if the method cannot be used for the scene, or ''.
+    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. The predicted
+      time for a small error may then be too short.
+    - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
     """
 
     method: str
@@ -126,7 +132,10 @@ class Prediction:
     failure: str = ""
 
     def count(self, error: float) -> float:
-        """Return the predicted number of steps for an error, or infinity if the interpreted runs failed."""
+        """Return the predicted number of steps that a run needs to reach an error.
+
+        The result is infinity if the interpreted runs failed.
+        """
         if not math.isfinite(self.error):
             return math.inf
         return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
@@ -138,7 +147,7 @@ class Prediction:
             return math.inf
         sweeps = self.sweeps
         if sweeps:
-            # Each fixed-point iteration multiplies the error by a factor proportional to the step size.
+            # Each sweep multiplies the error of the unknowns by a factor proportional to the step size.
             # Therefore shorter steps need fewer sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
@@ -146,7 +155,7 @@ class Prediction:
     def error_within(self, seconds: float) -> float:
         """Return the predicted error of a run that takes ``seconds`` seconds of CPU time.
 
-        The result is infinity if a single step takes longer.
+        The result is infinity if a single step takes longer than ``seconds``.
         """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
@@ -158,9 +167,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). Let p be the order of the recipe. The number e is the least
-      error that methods of the orders p + 1 and p + 2 are predicted to reach in ``seconds``. Only methods of
-      the given family are used, and only explicit or only implicit ones. The family '' means all families.
+    - ``least``: triples (family, explicit, e). The number e is a predicted error: the least error that
+      methods of slightly higher order (:data:`FAR`) reach in ``seconds``. Each triple is for the methods of
+      one family, or of all families if ``family`` is ''. These methods are explicit if the second entry is
+      True, and implicit if it is False.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -188,9 +198,9 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps that the interpreter may make in a run.
 
-        ``step_seconds`` is the time of a step in compiled code. Compiled code makes n =
-        ``seconds``/``step_seconds`` steps in the time limit ``seconds`` of this bar. The result is n, but at
-        most :data:`MANY_STEPS`. It is never below the number ``steps`` of this bar.
+        ``step_seconds`` is the time of a step in compiled code. The result is the number of steps that
+        compiled code makes in the time limit of this bar, but at most :data:`MANY_STEPS`. If the result would
+        be smaller than the attribute ``steps``, the result is ``steps``.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -206,11 +216,9 @@ class Predictor:
     - ``exact``: the reference solution.
     - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
       span, and the reference solution at the end of this interval.
-    - ``failures``: for each kind of method, the number of methods that failed in succession. A kind is a pair
-      (family, explicit). A method fails if all its runs over the whole time span fail. :data:`TRIES` is the
-      limit of this number.
-    - ``uncontrolled``: the same numbers for runs with step-size control. A method then fails if no run has a
-      small error.
+    - ``failures``: for each kind of method, the number of consecutive failures with equal steps
+      (:data:`TRIES`). A kind is a pair (family, explicit).
+    - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
     - ``costs``: for each operation, its predicted time in nanoseconds and the number of components of each
       result.
     """
@@ -226,9 +234,10 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        Each bar contains limits on the error and on the CPU time. Bars that the method cannot meet are
-        ignored. If no bar remains, the predicted error is infinite. ``controlled`` is the same method with
-        step-size control, or None. Raises InputError if the method cannot be used for the scene.
+        Each bar contains limits on the error and on the CPU time. Bars that exclude the method
+        (:meth:`Bar.too_high`) are ignored. If all bars exclude the method, it is not run, and the predicted
+        error is infinite. ``controlled`` is the same method with step-size control, or None. Raises
+        InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -246,9 +255,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # The first interval of the time span is tried if all runs failed, or if the error is large although
-        # MANY_STEPS steps are permitted. If the error is large and fewer steps are permitted, the method is
-        # too slow.
+        # The first interval is tried if all runs failed, or if the error is large with MANY_STEPS steps. If
+        # ``most`` is below MANY_STEPS and the error is large, the method is too slow for the time limit.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -268,9 +276,9 @@ class Predictor:
         """Return the prediction for a method with step-size control, or None if no run has a small error.
 
         :data:`SMALL` defines a small error. The result is also None if the method has no embedded solution,
-        or if too many methods of its kind failed (:data:`TRIES`). ``equal`` is the prediction for equal
-        steps. The interpreter makes runs with smaller and smaller tolerances until the error is at most
-        ``target`` or its time limit is reached.
+        or if too many methods of the same kind failed (:data:`TRIES`). ``equal`` is the prediction for equal
+        steps. The interpreter makes runs with decreasing tolerances. No further run is made after a run whose
+        error is at most ``target``, or after half of the time limit (:data:`PATIENCE`) has passed.
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
@@ -291,8 +299,8 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer. It is not made if half of the time limit
-            # is used.
+            # The next run has a smaller tolerance and takes longer than this run. After half of the time
+            # limit, it would probably not end in time.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -315,9 +323,9 @@ class Predictor:
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
         """Return two predicted times in nanoseconds for the operations of a step.
 
-        The first time is that of the operations outside of implicit equations. The second time is that of one
-        sweep (iteration) over all implicit equations. ``widths`` maps each input of the program to the number
-        of its components. The function inserts the remaining variables of the program into ``widths``.
+        The first time is for the operations outside of implicit equations. The second time is for one sweep
+        (iteration) over all implicit equations. ``widths`` maps each input of the program to its number of
+        components. The function adds all other variables of the program to ``widths``.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -355,12 +363,14 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Interpret runs with ``steps`` steps, then 2 ``steps``, 4 ``steps``, ..., until the error is small.
+    """Run a program in the interpreter with more and more equal steps. Return data of the most accurate run.
 
-    :data:`SMALL` defines a small error. Returns the number of steps, the error, and the number of sweeps in a
-    step, for the most accurate run. A sweep is an iteration for implicit equations. The largest number of
-    steps is ``most``. No run begins after the process has used ``end`` seconds of CPU time. The error is
-    infinite if all runs failed.
+    The first run has ``steps`` steps. The number of steps is doubled until the error is small
+    (:data:`SMALL`), or until the number would exceed ``most``. No run begins after the process has used
+    ``end`` seconds of CPU time.
+
+    The returned data are the number of steps, the error, and the number of sweeps in a step. A sweep is an
+    iteration for implicit equations. The error is infinite if all runs failed.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -381,9 +391,9 @@ def _reached(
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the predicted time in nanoseconds to compute and to invert the matrix of Newton's method.
 
-    ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate all its equations once. One
-    such evaluation gives the derivatives with respect to one unknown of each stage, for all stages together.
-    All stages have the same number of unknowns. This number is the number of evaluations.
+    ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate the equations once.
+    ``widths`` contains the number of components of each unknown. The largest of these numbers is the number
+    of evaluations for the matrix.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3

@@ -1,9 +1,11 @@
 """The race of recipes: measures the CPU time that each recipe needs to reach a required error.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. Recipes are emitted
-as C. The control of a run is a number of equal steps, or the exponent k of a tolerance 10^-k. First the
-control is increased until two consecutive runs reach the required error, because the error of a single run
-may be small by accident. Then the smallest control that reaches the error is found by bisection.
+A recipe is a method with equal steps or step-size control, on one form of the equations. It is measured with
+emitted C code. The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
+
+The control is increased until a run reaches the required error and the next run confirms this result. The
+confirmation is needed, because the error of a single run may be small by accident. Bisection then finds the
+smallest control that reaches the error.
 """
 
 from __future__ import annotations
@@ -38,24 +40,28 @@ FINEST = 15.0
 LONGEST = 0.2
 """No further runs of a recipe are tried after a run that takes more than LONGEST seconds of CPU time.
 
-If another recipe has already reached the required error, the limit can be lower (:data:`PATIENT`).
+The limit is lower if another recipe reaches the required error in a short time (:data:`PATIENT`).
 """
 
 BRIEF = 0.01
-"""A recipe is not excluded because of a run that takes less than BRIEF seconds of CPU time.
+"""A run that takes less than BRIEF seconds of CPU time never counts as too slow.
 
-The first run of a module is slow, so that short times are not reliable.
+The first run of a module is slower than later runs, so that short times are not reliable.
 """
 
 PATIENT = 8.0
-"""A recipe is excluded if one of its runs takes more than PATIENT times the least time of all other
-recipes.
+"""No further runs of a recipe are tried after a run that takes much more CPU time than the fastest recipe.
+
+The limit is PATIENT times the least CPU time of the other recipes, plus BRIEF.
 """
 
 
 @dataclass(frozen=True)
 class Entry:
-    """An entry of the race: a recipe, its emitted module, and the properties and the label of its method."""
+    """A recipe in the race, with its emitted module ``artifact``.
+
+    ``features`` contains the properties of the emitted method. ``label`` is the label of the method.
+    """
 
     recipe: Recipe
     artifact: Artifact
@@ -66,7 +72,7 @@ class Entry:
     def code(self) -> str:
         """The code of the step, without the header comment and without names that depend on the method.
 
-        If this code is equal for two recipes, they compute the same steps, and only one must be measured.
+        Two recipes with equal code compute the same steps. Only one of the two recipes is measured.
         """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
@@ -80,8 +86,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # On another form of the equations, the method integrates coordinates and ignores the manifold of the
-        # scene. Its states may therefore leave the manifold.
+        # In every other form of the equations, the unknowns are coordinates. The method then ignores the
+        # manifold of the scene, so that the states may leave the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
@@ -94,11 +100,11 @@ class Result:
     the most accurate run.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
-    - ``steps``: the number of steps, or of accepted steps with step-size control.
+    - ``steps``: the number of steps. Rejected steps are not counted.
     - ``error``: the error of the run.
     - ``seconds``: the CPU time of the run, or infinity if no run reaches the required error.
     - ``reached``: False if no run reaches the required error.
-    - ``failure``: the reason if every run failed, or ''.
+    - ``failure``: a message if every run failed, and otherwise ''.
     """
 
     entry: Entry
@@ -123,8 +129,8 @@ class Racer:
 
     - ``equations``: the equations in the form that the entry integrates.
     - ``exact``: the reference solution at the end of the time span.
-    - ``errors``: the errors of the runs that were tried. The keys are the controls.
-    - ``counts``: the numbers of steps of these runs. The keys are the controls.
+    - ``errors``: a dictionary that maps the control of each run to its error.
+    - ``counts``: a dictionary that maps the control of each successful run to its number of steps.
     """
 
     equations: Equations
@@ -142,9 +148,9 @@ class Racer:
         self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
-        """Run over ``spans`` time spans. Return the final state and the number of steps.
+        """Run over ``spans`` times the time span. Return the final state and the number of steps.
 
-        ``control`` is the number of equal steps in each span, or the exponent k of the tolerance 10^-k.
+        ``control`` is the number of equal steps in one time span, or the exponent k of the tolerance 10^-k.
         """
         length = self.last - self.first
         if self.entry.recipe.adaptive:
@@ -177,15 +183,16 @@ class Racer:
         """Return the CPU time of a run in seconds, without the overhead of a call.
 
         ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. The arguments
-        ``batch`` and ``batches`` are those of :func:`codegen.lab.timing.samples`.
+        ``batch`` and ``batches`` are explained at :func:`codegen.lab.timing.samples`.
         """
         return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
     def reach(self, error: float, best: float = math.inf) -> Result:
-        """Return the fastest run that reaches an error.
+        """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time of all other recipes in seconds. If a run takes much longer than
-        ``best``, no further runs are tried. If no run reaches the error, ``reached`` is False in the result.
+        ``best`` is the least CPU time of the other recipes in seconds. After a run that takes much longer
+        (:data:`PATIENT`), no further runs are tried. If the error is not reached, the attribute ``reached``
+        of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -211,11 +218,12 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Increase the control until a run reaches the error. Return this control and True.
+        """Increase the control until a run reaches the error and the next run confirms this result.
 
-        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The run with the
-        next control must have at most twice the required error. If no control is found, return the last
-        control and False. ``longest`` is the longest CPU time of a run.
+        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The next run
+        confirms the result if its error is at most 2 ``error``. Returns the control that reaches the error,
+        and True. If no such control is found, returns the last control, and False. After a run that takes
+        more than ``longest`` seconds of CPU time, no further runs are made.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -233,9 +241,11 @@ class Racer:
     def _at_rounding(self, values: list[float]) -> bool:
         """Return True if rounding errors probably prevent further convergence.
 
-        ``values`` are the errors of all runs. Two conditions must hold. The smallest error is below 1e-9,
-        relative to the size of the state. Let e be the smallest error before the last three runs. The errors
-        of the last three runs are all above e/2.
+        ``values`` are the errors of all runs. The result is True under three conditions:
+
+        - There are at least five runs.
+        - The smallest error, relative to the size of the state, is below 1e-9.
+        - The last three errors are above e/2, where e is the smallest error of the earlier runs.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -244,11 +254,11 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the smallest control that reaches the error, found by bisection.
+        """Reduce the control by bisection. Return the smallest tested control whose run reaches the error.
 
-        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The argument
-        ``control`` reaches the error. The search begins between ``control`` and a smaller control, which is
-        half the number of steps or the exponent k - 1.
+        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with the
+        argument ``control`` must reach the error. The bisection begins with an interval that ends at
+        ``control``. The interval begins at half the number of steps, or at the exponent k - 1.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2
