@@ -31,7 +31,7 @@ NOTICED = 0.1
     "needs",
     multiple=True,
     help="Required properties, separated by commas. The properties are manifold, symplectic, explicit, "
-    "adaptive and fixed.",
+    "adaptive (step-size control) and fixed (equal steps).",
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest allowed stack memory of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")

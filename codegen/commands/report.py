@@ -75,8 +75,8 @@ def command(
 
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
     methods for every scene. The measurements take one to two minutes for a Hamiltonian scene, and about half
-    a minute for other scenes. Several scenes are measured at the same time. All measured times
-    are CPU times. With several processes, the measured times are a little longer than with --processes 1,
+    a minute for other scenes. Several scenes are measured at the same time. All measured times are CPU times.
+    With several processes, the measured times are a little longer than with --processes 1,
     because the processors share caches. For more than eight scenes, the search for the fastest method is
     shorter, and by default the growth of rounding errors is not measured. If a report is interrupted, repeat
     the command to continue the report. If a method fails, the page gives the reason. The pages need no
