@@ -1,4 +1,4 @@
-"""Arguments and options of several commands of the compiler: scene, methods, parameters, targets."""
+"""Arguments and options that several commands share: scene, methods, parameters, targets."""
 
 from __future__ import annotations
 
@@ -72,6 +72,6 @@ def targets_option(command: Command) -> Command:
         "-t",
         "targets",
         multiple=True,
-        help="A target language (see orderconds list targets), by default c; may be repeated.",
+        help="A target language, by default 'c'; see `orderconds list targets`. The option may be repeated.",
         shell_complete=completing(target_names),
     )(command)

@@ -34,14 +34,15 @@ if TYPE_CHECKING:
     "-a",
     "peers",
     multiple=True,
-    help="Other integrators (peers): names of peers, or 'scipy', 'c' or 'all' for a group of peers.",
+    help="Names of peers to measure. Peers are other integrators, such as those of SciPy. The names 'scipy', "
+    "'c' and 'all' select groups of peers.",
 )
 @click.option(
     "--form",
     "forms",
     multiple=True,
-    help="The form of the equations that peers and ambient methods integrate: printed (the equations of "
-    "the scene), body-matrix or quaternion. May be repeated. Default: all forms.",
+    help="A form of the equations: printed (the equations of the scene), body-matrix or quaternion. Peers "
+    "and the methods ambient:TABLEAU integrate this form. The option may be repeated. Default: all forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(
@@ -71,11 +72,13 @@ def command(
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control.
     --against names peers, which are other integrators: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
     diffrax, c-dop853, c-rk4-projected. The name 'scipy' selects all installed peers of SciPy, 'c' selects all
-    peers in C, and 'all' selects all installed peers. Methods that integrate the coordinates
-    (ambient:TABLEAU) run on all classical forms of the equations, such as body momentum and unit quaternion.
-    Most peers do so, too. The tables name the fastest form. With -o an interrupted measurement continues when
-    the command is repeated. If a method or peer fails, its row contains the reason. The exit status is 1 if a
-    method or peer has no successful run.
+    peers in C, and 'all' selects all installed peers.
+
+    The equations of a scene may have several classical forms, for example with a quaternion instead of a
+    rotation matrix. The methods ambient:TABLEAU and most peers run on each form. The tables name the form in
+    which the method or peer is fastest. If a measurement with -o is interrupted, repeat the command to
+    continue the measurement. If a run of a method or peer fails, the row of this run contains the reason. The
+    exit status is 1 if a method or peer has no successful run.
 
     \b
     Examples:
@@ -88,7 +91,9 @@ def command(
 
     if not 0 < budget < 1e5:
         raise InputError(
-            f"the budget {budget:g}", where="--budget", expected="a number of CPU seconds above 0"
+            f"the budget {budget:g}",
+            where="--budget",
+            expected="CPU seconds above 0 and below 100000",
         )
     with working("reading scene and methods") as progress:
         targets = targets or (DEFAULT,)
@@ -105,7 +110,9 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print a table of all runs, the fastest method for each decade of accuracy, and the set-up times."""
+    """Print three tables: all runs, the two fastest methods for each power of ten of the error, and the times
+    of emission and compilation.
+    """
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--target",
     "-t",
-    help="A target language (see orderconds list targets), or 'interpreter'; by default c.",
+    help="A target language (see `orderconds list targets`) or the word 'interpreter'; by default 'c'.",
     shell_complete=completing(lambda: (*target_names(), "interpreter")),
 )
 @click.option(
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: measure orders on built-in scenes in 50 digits and compare them with the orders that the "
-    "tableaux claim. Omit SCENE.",
+    help="With 'strict', the order is measured on built-in scenes in 50 digits, and compared with the order "
+    "that the tableau claims. SCENE must then be omitted.",
 )
 @click.option(
     "--stated",
@@ -59,12 +59,12 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    If a method cannot be emitted for the scene, its row contains the reason.
+    The observed order of a method is compared with a stated order, which is the value of --stated. By
+    default, the stated order follows from the order conditions. With --protocol strict, the default is the
+    order that the tableau claims. If a method cannot be emitted for the scene, the reason is printed.
 
-    The stated order of a method is the value of --stated. The default is the order that follows from the
-    order conditions, or with --protocol strict the order that the tableau claims. The exit status is 0 if
-    every observed order equals the stated order. It is 1 if an observed order differs or is undecided, or if
-    a method cannot be emitted.
+    The exit status is 0 if every observed order equals the stated order. The exit status is 1 if an observed
+    order differs from the stated order or is undecided, or if a method cannot be emitted.
 
     \b
     Examples:
@@ -154,7 +154,7 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
-    """Print the runs of one method as a table, and then the verdict on its order.
+    """Print a table of the runs of one method, and below the table the verdict on the order of the method.
 
     If the method cannot be emitted, the reason is printed. If ``first`` is false, an empty line precedes the
     table.

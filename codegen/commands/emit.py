@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
-    "--batch", is_flag=True, help="Also emit a C function that steps many independent systems at once."
+    "--batch", is_flag=True, help="Also emit a C function that advances many independent systems at once."
 )
 @click.option(
     "--adaptive",
@@ -66,27 +66,28 @@ if TYPE_CHECKING:
 @click.option(
     "--integrate",
     is_flag=True,
-    help="Also emit a function that integrates to a given end time. Its arguments include output times and "
-    "bounds on the step size. A run can be resumed.",
+    help="Also emit a function that integrates to a given end time. The function accepts output times "
+    "and bounds on the step size, and it can continue an earlier run.",
 )
 @click.option(
     "--dense",
     is_flag=True,
-    help="Compute the states at output times inside a step by the continuous extension of the tableau; "
-    "implies --integrate.",
+    help="Compute the state at an output time with the continuous extension of the tableau, not with a "
+    "shorter step. Implies --integrate.",
 )
 @click.option(
     "--events",
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="Number of event functions. The function that --integrate emits finds their zeros. Implies "
-    "--integrate.",
+    help="The number of event functions. The function that --integrate emits also finds zeros of the event "
+    "functions. Implies --integrate.",
 )
 @click.option(
     "--compensate",
     is_flag=True,
-    help="Use compensated summation: the state also contains the rounding error of each coordinate.",
+    help="Use compensated (Kahan) summation. The state then also stores the rounding error of each "
+    "coordinate, and the next step corrects this error.",
 )
 @click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
@@ -100,8 +101,8 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the operations that the pass has removed. For a "
-    "lattice, also compile the module and measure the memory bandwidth of a step.",
+    help="Print the program after each compiler pass, and the number of operations that each pass removes. "
+    "For a lattice, also compile the module and measure the memory bandwidth of a step.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -128,8 +129,8 @@ def command(
     For an implicit method, a warning is printed if none of the solvers of its stages converges in the first
     steps from the initial state of the scene.
 
-    Without -o no file is written. In this case --explain or --json is required and prints a description of
-    the module.
+    Without -o no file is written. The option --explain or --json is then required, and the command only
+    prints a description of the module.
 
     \b
     Examples:
@@ -168,7 +169,8 @@ def command(
 def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
     """Measure the memory bandwidth of a step on a lattice.
 
-    The result is printed, or returned as an entry for a JSON record if ``as_json`` is True.
+    If ``as_json`` is True, return the result as an entry for a JSON record. Otherwise print the result and
+    return an empty dictionary.
     """
     from codegen.lab.bandwidth import measure
 
@@ -186,7 +188,7 @@ def _write(
     as_json: bool,
     more: Mapping[str, object],
 ) -> None:
-    """Write the files of all modules to the folder ``output``, if a folder is given.
+    """Write the files of all modules to the folder ``output``. If ``output`` is None, no file is written.
 
     If ``as_json`` is True, print one JSON record for each module. Otherwise print the paths of the files.
     """
@@ -212,7 +214,11 @@ def _require_known(targets: tuple[str, ...], precision: str) -> None:
 
 
 def explained(compiled: Compiled) -> dict[str, object]:
-    """Return the entries that ``--explain`` adds to the JSON record of a module."""
+    """Return the data that ``--explain`` adds to the JSON record of a module.
+
+    The data describe the compiler passes, the outlined functions, the solvers that were compared, and the
+    loops over the sites of a lattice.
+    """
     return {
         "passes": [
             {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
@@ -225,9 +231,9 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note that says which family was chosen for a tableau on a Hamiltonian scene.
+    """Return a note about the family that the compiler has chosen, because ``method`` names no family.
 
-    The note is '' if the scene is not Hamiltonian, or if the text ``method`` names a family.
+    If ``method`` names a family, or if the scene is not Hamiltonian, the result is ''.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -247,7 +253,7 @@ def family_note(compiled: Compiled, method: str) -> str:
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each system of equations whose solvers all fail in the first steps."""
+    """Print a warning for each system of implicit equations that no solver can solve in a few test steps."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
@@ -256,8 +262,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
-    It contains the program after each compiler pass and the operation counts. It also names operations and
-    arguments that the module does not need.
+    The text contains the program after each compiler pass, and the numbers of operations. The last section
+    lists operations and arguments that the module does not need.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -292,8 +298,8 @@ def explanation(compiled: Compiled) -> str:
 def solvers_of(compiled: Compiled) -> list[str]:
     """Return lines about the solvers of implicit equations.
 
-    For each system of equations there is a line with the chosen solver, then a line for each solver that was
-    compared.
+    For each system of equations, the first line names the chosen solver. Each following line describes one
+    solver that was considered.
     """
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
@@ -301,9 +307,9 @@ def solvers_of(compiled: Compiled) -> list[str]:
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
-    """Return the name, the number of calls and a description of each outlined function of a step.
+    """Return a dictionary for each outlined function: its name, the number of calls, and a description.
 
-    An outlined function contains operations that a step needs several times.
+    An outlined function contains operations that a step repeats.
     """
     from codegen.kernel.outlined_functions import calls
 

@@ -1,4 +1,4 @@
-"""``orderconds figure``: draw a figure of a scene. Emitted code computes its curves."""
+"""``orderconds figure``: draw a figure of a scene. Emitted code computes the curves of the figure."""
 
 from __future__ import annotations
 

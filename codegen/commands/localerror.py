@@ -1,4 +1,4 @@
-"""``orderconds localerror``: compute the exact order of emitted steps from their local errors."""
+"""``orderconds localerror``: compute the exact order of an emitted method from the local error of a step."""
 
 from __future__ import annotations
 
@@ -22,12 +22,14 @@ if TYPE_CHECKING:
 def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
-    The emitted operations of a step are executed with power series in h instead of numbers. The coefficients
-    of these series are exact. The result is compared with the Taylor series of the solution. The field must
-    be a rational function of the coordinates. Initial coordinates that are not rational are replaced by
-    nearby rational numbers. The exit status is 1 if the exact order is below the order that the order
-    conditions give. The exit status is also 1 if the exact order is undecided because the method has no exact
-    coefficients.
+    The emitted operations of a step are executed with power series in the step size h instead of numbers.
+    The coefficients of these series are exact. The power series of the new state is compared with the Taylor
+    series of the solution. The field must be a rational function of the coordinates. Initial coordinates that
+    are not rational are replaced by nearby rational numbers.
+
+    The exit status is 1 if the exact order is below the order that the order conditions give. The exit status
+    is also 1 if the exact order cannot be computed, for example if the coefficients of the method are known
+    only as intervals.
 
     \b
     Examples:
@@ -57,7 +59,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 def show(result: ExactLocalError | NotExact, first: bool) -> None:
     """Print the leading coefficients of the local error and the verdict on the order.
 
-    If there are no exact coefficients, the reason is printed.
+    If the local error cannot be computed exactly, print the reason instead.
     """
     from codegen.lab.orders.exact_order import ExactLocalError
 

@@ -44,8 +44,8 @@ FEWEST = 200
     "--properties",
     "with_properties",
     is_flag=True,
-    help="Also measure whether a step is symplectic, whether it is symmetric, and whether the first "
-    "conserved quantity drifts.",
+    help="Also test whether each method is symplectic and symmetric, and whether the first conserved "
+    "quantity drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -61,12 +61,12 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    The deviation of a quantity is relative to the size of the quantity. The column "law" contains "lost" if
-    the deviation reaches the size of the quantity, "rounding" if rounding errors explain the deviation, and
-    "too short to tell" if the run is too short for a verdict. For quantities that a method conserves exactly,
-    the growth of rounding errors is measured with and without compensated summation. Each measurement gives
-    two numbers: the root mean square (rms) of the rounding errors over several initial states, and the
-    exponent p if the rms grows like steps^p. The exit status is 1 if a run ends early or a method fails.
+    The column "law" contains a verdict on the relative deviation of a quantity: exact, bounded, random walk,
+    drift, rounding (rounding errors explain the deviation), lost (the deviation is about as large as the
+    quantity) or too short to tell. For quantities that a method conserves exactly, the growth of rounding
+    errors is measured with and without compensated summation. The root mean square (rms) of these errors over
+    several initial states grows like a power of the number of steps. The column "steps^p" contains the
+    exponent p. The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -126,9 +126,9 @@ def show_properties(rows: Sequence[Properties]) -> None:
 
 
 def show(run: LongRun) -> None:
-    """Print one run: the drift of its quantities, its reversibility errors and its symplectic defect.
+    """Print the results of one run: the drift of each conserved quantity, and other errors of the method.
 
-    A reversibility error is the distance from the initial state after n steps forward and n steps back.
+    One of these errors is the distance from the initial state after n steps forward and n steps back.
     """
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [

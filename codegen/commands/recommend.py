@@ -30,9 +30,10 @@ NOTICED = 0.1
     "--need",
     "needs",
     multiple=True,
-    help="Required properties, separated by commas: manifold, symplectic, explicit, adaptive, fixed.",
+    help="Required properties, separated by commas. The properties are manifold, symplectic, explicit, "
+    "adaptive (step-size control) and fixed (equal steps).",
 )
-@click.option("--stack", type=click.IntRange(1), help="The largest stack memory of a call, in bytes.")
+@click.option("--stack", type=click.IntRange(1), help="The largest allowed stack memory of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")
 @click.option(
     "--budget", type=float, help="Time in seconds for the reference solution and the search; by default 50."
@@ -54,11 +55,14 @@ def command(
 ) -> int:
     """Find the fastest method whose error on SCENE (a gallery name or a Python file) is at most --error.
 
-    The whole library is searched: every family that accepts the scene, with equal steps and with step-size
-    control. The error is the distance from a reference solution at the end of the span. The properties that
-    --need accepts are manifold (the state stays on the manifold up to rounding), symplectic, explicit (no
-    equations are solved), adaptive (step-size control) and fixed (equal steps). --need symplectic also
-    excludes methods that lose a conserved quantity in a long run. The exit status is 1 if no method is found.
+    By default the search uses all tableaux of the library, in every family that accepts the scene. Methods
+    run with equal steps or with step-size control. The error is the distance from a reference solution at the
+    end of the time span.
+
+    The option --need accepts five properties: manifold (the state stays on the manifold up to rounding),
+    symplectic, explicit (no equations are solved), adaptive (step-size control) and fixed (equal steps). With
+    --need symplectic, a method is also excluded if it does not preserve a conserved quantity in a long run.
+    The exit status is 1 if no method is found.
 
     \b
     Examples:
@@ -71,7 +75,9 @@ def command(
     from orderconds.errors import InputError
 
     if budget is not None and not 0 < budget < 1e5:
-        raise InputError(f"the budget {budget:g}", where="--budget", expected="seconds above 0")
+        raise InputError(
+            f"the budget {budget:g}", where="--budget", expected="seconds above 0 and below 100000"
+        )
     request = Request(
         with_values(scene, parameters),
         error,
@@ -124,16 +130,18 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a text about the search: how many methods were compared, how long it took, and its limits."""
+    """Return a text about the search: the numbers of compared methods, the time of the search, and
+    warnings.
+    """
     text = (
-        f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
-        f"in {result.seconds:.0f} s"
+        f"in {result.seconds:.0f} s, {result.predicted} methods were compared by predicted CPU time, and "
+        f"{result.raced} methods by measured CPU time"
     )
     if result.kinks:
         text += (
-            f"; the solution crosses {result.kinks} points where the field is not smooth, and methods lose "
+            f"; the solution crosses {result.kinks} points where the field is not smooth, which can lower "
         )
-        text += "their order at these points; the errors were measured only on this time span"
+        text += "the order of a method; the measured errors are valid only for the time span of this search"
     text += "" if result.complete else "; the time budget ended the search; --budget S sets another budget"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"
@@ -143,7 +151,7 @@ def searched(result: Recommendation) -> str:
 def unreached(result: Recommendation) -> str:
     """Return a message for a search in which no method reaches the requested error.
 
-    The message contains the smallest measured error, or the reason why no error was measured.
+    The message contains the smallest measured error. If no error was measured, the message gives the reason.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""

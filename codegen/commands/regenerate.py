@@ -1,7 +1,6 @@
-"""``orderconds regenerate``: emit every module of a list.
+"""``orderconds regenerate``: emit all modules of ``regenerate.toml`` into the folder ``generated/``.
 
-The new files replace the files of a folder. With ``--check`` they are compared with the files of the folder
-byte by byte.
+With ``--check``, the command only compares the emitted files with the files of the folder.
 """
 
 from __future__ import annotations
@@ -19,23 +18,23 @@ from orderconds.commands.place import FOLDER
     "--check",
     "check_only",
     is_flag=True,
-    help="Change nothing; the exit status is 1 if a file differs from the newly emitted one.",
+    help="Change nothing; the exit status is 1 if the folder differs from the newly emitted files.",
 )
 @click.option(
     "--output",
     "-o",
     type=FOLDER,
     metavar="DIR",
-    help="The folder to rewrite or compare; by default generated/ in the source tree.",
+    help="The folder of the emitted modules; by default generated/ in the source tree.",
 )
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
 @click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
-    An emitted file that no listed module produces is stale. The command removes a stale file. With --check
-    the command only reports the file. A file is unknown if no manifest in the folder lists it.
-    The command reports an unknown file and does not change it.
+    The manifests in the folder list the files that were emitted earlier. If such a file belongs to no module
+    of regenerate.toml, the file is reported as stale and removed. With --check it is only reported. A file
+    that no manifest lists is reported as unknown and not changed.
 
     \b
     Examples:

@@ -19,9 +19,13 @@ from orderconds.commands.variadic import Variadic
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...", shell_complete=completing(scene_names, files=True))
 @methods_option()
 @values_option
-@click.option("--adaptive", multiple=True, help="Additional methods, run with step-size control.")
+@click.option("--adaptive", multiple=True, help="Methods to measure with step-size control.")
 @click.option(
-    "--against", "-a", "peers", multiple=True, help="Other integrators (peers) to compare; see bench --help."
+    "--against",
+    "-a",
+    "peers",
+    multiple=True,
+    help="Names of peers to measure. Peers are other integrators, such as those of SciPy; see bench --help.",
 )
 @click.option(
     "--only",
@@ -66,18 +70,21 @@ def command(
     processes: int | None,
     as_json: bool,
 ) -> int:
-    """Measure SCENEs (names of scenes in the gallery, or paths of Python files). The default is dipole and
-    free_rigid_body.
+    """Measure SCENEs (names of scenes in the gallery, or paths of Python files). The default scenes are
+    dipole and free_rigid_body.
 
-    Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
-    measurements take one to two minutes for a Hamiltonian scene, about half a minute for a field scene.
-    Several scenes are measured at the same time. All measured times are CPU times. With several processes,
-    the measured times are a little longer than with --processes 1, because the processors share caches. With
-    more than eight scenes, less time is spent in the search for the fastest method, and by default the growth
-    of rounding errors is not measured. An interrupted report continues when the command is repeated. If a
-    method fails, its row contains the reason. A browser shows the pages without a network connection. The
-    exit status is 1 in three cases: an observed order differs from the computed order, a step with extremely
-    large or small numbers gives a wrong result, or a method fails. The pages are written in all cases.
+    The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
+    methods for every scene. The measurements take one to two minutes for a Hamiltonian scene, and about half
+    a minute for other scenes. Several scenes are measured at the same time. All measured times are CPU times.
+    With several processes, the measured times are a little longer than with --processes 1,
+    because the processors share caches. For more than eight scenes, the search for the fastest method is
+    shorter, and by default the growth of rounding errors is not measured. If a report is interrupted, repeat
+    the command to continue the report. If a method fails, the page gives the reason. The pages need no
+    network connection.
+
+    The exit status is 1 in three cases: an observed order differs from the order that follows from the order
+    conditions, a step with extremely large or small numbers gives a wrong result, or a method fails. The
+    pages are also written in these cases.
 
     \b
     Examples:
@@ -88,9 +95,9 @@ def command(
     from codegen.scenes import with_values
 
     if everything and scenes:
-        raise click.UsageError("name SCENEs, or give --all")
+        raise click.UsageError("name SCENEs, or give --all, but not both")
     if parameters and not scenes:
-        raise click.UsageError("--parameter changes the named SCENEs; name a SCENE")
+        raise click.UsageError("--parameter is used without a SCENE; give the SCENE of the parameter")
     scenes = tuple(with_values(name, parameters) for name in scenes)
     request = Request(
         read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive, processes
