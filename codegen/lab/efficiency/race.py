@@ -136,7 +136,6 @@ class Racer:
     equations: Equations
     exact: Reference
     entry: Entry
-    least: float = math.inf
     errors: dict[float, float] = field(default_factory=dict)
     counts: dict[float, int] = field(default_factory=dict)
 
