@@ -1,8 +1,8 @@
 """The right-hand side of the differential equation of a scene, as a Python function of Arb balls.
 
-A ball is a number with an error radius. Reference solutions are computed with Arb balls because Arb is several
-times faster than mpmath. The radii are not used. The uncertainty of a reference solution is measured by a
-second integration (:mod:`codegen.lab.reference`).
+A ball is a number with an error radius. Reference solutions are computed with Arb balls because Arb is
+several times faster than mpmath. The radii are not used. The uncertainty of a reference solution is measured
+by a second integration (:mod:`codegen.lab.reference`).
 """
 
 from __future__ import annotations
