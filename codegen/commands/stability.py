@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
 """The stress tests of one scene.
 
-A job contains the name of the scene, the names of the methods, and True to include runs of ten million steps.
+A job contains three values: the name of the scene, the names of the methods, and a flag. If the flag is True,
+runs of ten million steps are included.
 """
 
 
@@ -57,10 +58,10 @@ def command(
     if everything == (scene is not None):
         raise click.UsageError("name one SCENE, or give --all")
     if everything and parameters:
-        raise click.UsageError("--parameter changes one SCENE; omit --all")
+        raise click.UsageError("--parameter cannot be used with --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
-        # InputError is raised here, before the first test begins, if a scene or a method cannot be tested.
+        # If a scene or a method cannot be tested, these lines raise InputError before the first test.
         scenes.with_one_system(scenes.load(name)).require_formulas()
         methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []
@@ -94,9 +95,9 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Run the stress tests of a job in a separate process, and return the results.
+    """Run the stress tests of a job without progress messages, and return the results.
 
-    No progress messages are printed, because only the main process prints messages.
+    Several processes call this function at the same time.
     """
     return _run(job, str)
 

@@ -1,9 +1,8 @@
 """The right-hand side of the differential equation of a scene, as a Python function of Arb balls.
 
-The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
-state y. A ball is a number with an error radius. A reference solution uses Arb balls because they are several
-times faster than mpmath numbers. Its integration ignores the radii, because the uncertainty is measured by a
-second integration (:mod:`codegen.lab.reference`).
+A ball is a number with an error radius. Reference solutions are computed with Arb balls because Arb is
+several times faster than mpmath. The radii are not used. The uncertainty of a reference solution is measured
+by a second integration (:mod:`codegen.lab.reference`).
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ def ambient_field(scene: Problem) -> Evaluate:
 def ball(number: Number) -> arb:
     """Return an exact number as a ball.
 
-    A rational number is rounded to the working precision. Any other number is rounded to a higher precision.
+    A rational number is rounded to the working precision. For an irrational number, a few more bits are used.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

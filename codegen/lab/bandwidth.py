@@ -7,9 +7,9 @@ all sweeps of a step read and write (:meth:`codegen.ir.site_step.SiteStep.number
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
-writes to this line, but such reads are not counted. Thus each stored number causes one read that is not
-counted. The triad stores one number for each two numbers that it reads. A step that stores fewer numbers in
-proportion has fewer reads that are not counted. Its bandwidth may then exceed the bandwidth of the triad.
+writes to this line, but such reads are not counted. One third of the numbers that the triad reads or stores
+are stored numbers. If this fraction is smaller for a step, the bandwidth of the step can exceed the bandwidth
+of the triad, because fewer reads are omitted from the count.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ RESOLVED = 0.01
 """The least duration of a timed run in seconds. It is much longer than the resolution of the clock."""
 
 REPEATED = 5
-"""The number of timed runs. The least of their times is used, because other processes only increase times."""
+"""The number of timed runs. The fastest run is used, because other processes can only slow a run down."""
 
 CACHES = 8
 """The size of the arrays divided by the size of the last-level cache.
@@ -68,24 +68,24 @@ FREE_SHARE = 8
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """Assumed sizes of the last-level cache and of the free memory in bytes.
 
-If the operating system does not state one of these sizes, the assumed size is used.
+They are used if the operating system does not state the true sizes.
 """
 
 FEW_SITES = 4096
 """The number of sites in the first run, which gives an estimate of the CPU time for each site."""
 
 SHORTER, ATTEMPTS = 64, 4
-"""The first step is tried with at most ATTEMPTS step sizes. Each is the previous one divided by SHORTER.
+"""If the first step fails, the step size is divided by SHORTER and the step is tried again.
 
-A shorter step is tried if a step from the initial state fails. A step may fail because all sites have the
-same initial state, which can be far from equilibrium.
+At most ATTEMPTS attempts are made. The first step can fail because the initial state may be far from
+equilibrium.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The iterations for implicit equations are counted in COUNTED_STEPS steps on a small lattice.
+"""The iterations for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
 
-In dimension d = 1 or 2, this lattice
-has SIDES[d] sites along each axis. In higher dimensions it has 4 sites along each axis.
+In dimension d = 1 or 2, this lattice has SIDES[d] sites along each axis. In higher dimensions it has 4 sites
+along each axis.
 """
 
 TRIAD = """\
@@ -171,7 +171,7 @@ class Unmeasured:
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason of the missing measurement, for the key ``bandwidth`` of a JSON record."""
+        """Return the reason for the missing measurement, for the key ``bandwidth`` of a JSON record."""
         return {"reason": self.reason}
 
 
@@ -216,14 +216,15 @@ def measure(
 
 
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
-    """Return the step size for the measurement: the time span divided by :data:`PARTS`.
+    """Return the step size for the measurement.
 
-    For an explicit method, this step size is also divided by :data:`SHORTER`.
+    For an implicit method, the step size is the time span divided by :data:`PARTS`. For an explicit method,
+    this quotient is divided by :data:`SHORTER`.
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If an angle of rotation exceeds about one radian, the emitted code runs a loop a second time, without
-    # vector instructions. The division by SHORTER makes the angles smaller, so that no loop runs twice.
+    # If a rotation angle exceeds about one radian, the emitted code repeats a loop without vector
+    # instructions. The division by SHORTER makes the rotation angles smaller and avoids the slow repetition.
     return h if step.blocks else h / SHORTER
 
 
@@ -272,11 +273,11 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Make ``repeated`` equal runs. Return a status and a CPU time in seconds.
+        """Make ``repeated`` equal runs of ``steps`` steps. Return a status and a CPU time in seconds.
 
-        If all runs succeed, the status is ``Status.OK``. The time is then the least CPU time of a run,
-        divided by the number of sites and the number of steps. If a run fails, no further runs are made. The
-        status is then that of the failed run, and the time is the least CPU time of a run, without division.
+        If all runs succeed, the status is ``Status.OK``. The CPU time is that of the fastest run, divided by
+        the number of sites and the number of steps. If a run fails, its status is returned, and no further
+        runs are made. The CPU time has no meaning in this case.
         """
         import numpy as np
 
@@ -304,7 +305,7 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # The last run may fail because the method is unstable. Then use the step count of the run before.
+        # An unstable method may fail in the last run. In this case, use the previous number of steps.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 
@@ -322,8 +323,8 @@ class _Counting(Machine):
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
     """Return the mean number of sweeps over the lattice in a step, for each system of implicit equations.
 
-    Emitted modules do not report this number. Therefore the emitted functions are executed in Python on a
-    small lattice, and the calls are counted in the first :data:`COUNTED_STEPS` steps.
+    Emitted modules do not report the number of sweeps. Therefore :data:`COUNTED_STEPS` steps are executed in
+    Python on a small lattice. Each sweep calls the same function once, and these calls are counted.
     """
     if not step.blocks:
         return ()

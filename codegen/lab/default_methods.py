@@ -48,8 +48,8 @@ is omitted if its order for the scene differs from the listed order.
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The methods that the report runs with step-size control by default.
 
-For a Hamiltonian scene only the first method of this list is used. A figure has only eight colours, and
-REPORT_HAMILTONIANS already contains seven methods.
+For a Hamiltonian scene only the first method of this list is used, because REPORT_HAMILTONIANS contains seven
+methods and a figure has only eight colours.
 """
 
 README_METHODS = {
@@ -103,14 +103,14 @@ PICTURED = (
 )
 """Lists of methods that may appear together in one figure.
 
-Each method of these lists has the same colour and marker in all figures.
+The colour and the marker of a method do not change from figure to figure.
 """
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods. If ``names`` is empty, return the default methods for the scene.
 
-    An unknown name raises the errors of :func:`codegen.method.parse`.
+    For an unknown name, the same errors are raised as by :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     return tuple(method_for(scene, name) for name in (names or defaults))

@@ -42,8 +42,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of the difference ``gap`` of two group elements.
 
-    For a product group, the norm is the sum of the norms of the components. If the elements of the group are
-    matrices, the norm is the spectral norm. For any other group it is the Euclidean norm.
+    For a product group, the norm is the sum of the norms of the components. For a group of matrices, it is
+    the spectral norm. For all remaining groups, it is the Euclidean norm.
     """
     product = group.offers(DirectProduct)
     if product is not None:
@@ -61,9 +61,10 @@ def euclidean_norm(vector: Sequence[float]) -> float:
 
 
 def spectral_norm(matrix: Sequence[float]) -> float:
-    """Return the largest singular value of a square matrix. ``matrix`` lists its entries row by row.
+    """Return the largest singular value of a square matrix, or the Euclidean norm of the entries of another
+    matrix.
 
-    If the number of entries is not a square number, return the Euclidean norm of the entries.
+    ``matrix`` lists the entries row by row. The matrix is square if the number of entries is a square number.
 
     >>> round(spectral_norm([0.0, -2.0, 1.0, 0.0]), 12)
     2.0

@@ -43,27 +43,27 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed after the runs that ``rows`` describes.
+        """Return True if no further run is needed. ``rows`` describes the previous runs.
 
-        The result is False if the error of the last run is larger than the size of the state. Such a run has
-        diverged, and a run with a smaller tolerance may succeed.
+        If the error of the last run is larger than the size of the state, the result is False, because a
+        smaller tolerance may give a useful result.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over ``spans`` times the time span of the scene, with the tolerance ``control``.
+        """Run with the tolerance ``control``, and return the number of accepted steps.
 
-        Return the number of accepted steps.
+        The time interval is ``spans`` times as long as the time span of the scene.
         """
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` times the time span of the scene with the given tolerance.
+        """Run over a time interval with the given tolerance.
 
-        Returns the final state and the numbers of accepted and rejected steps. Raises RunFailed if a step
-        fails.
+        The interval is ``spans`` times as long as the time span of the scene. The final state and the numbers
+        of accepted and rejected steps are returned. RunFailed is raised if a step fails.
         """
         first, last = map(float, self.scene.span)
         try:

@@ -109,9 +109,9 @@ def recommend(
 ) -> Advice:
     """Search the library for the fastest method whose error at the end of the time span is at most ``error``.
 
-    The arguments are those of the command ``orderconds recommend``. ``needs`` are names of required
-    properties of the method, such as ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or
-    InputError.
+    The arguments are the same as for the command ``orderconds recommend``. ``needs`` lists the required
+    properties of the method, such as ``"symplectic"``. For a wrong argument, SceneError, UnknownName or
+    InputError is raised.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")

@@ -43,7 +43,7 @@ class Result:
 
     - ``entries``: maps the name of a candidate (a method or another integrator) to its rows. A row describes
       one run.
-    - ``places``: the fastest and the second fastest candidate for errors 10^-k.
+    - ``places``: the fastest and the second fastest candidate for several required errors, such as 1e-6.
     - ``paths``: the paths of the files that were written.
     """
 
@@ -68,11 +68,11 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """A triple for each candidate: its name, the time of emission, and the time of compilation.
+        """The times in seconds for the emission and the compilation of the candidates.
 
-        Times are in seconds. The time of compilation is the longest one in the rows of the candidate. A
-        candidate that runs on several forms of the equations has a triple for each form, because each form is
-        emitted and compiled separately.
+        Each triple contains the name of a candidate, the time of emission, and the time of compilation. If a
+        candidate runs on several forms of the equations, each form has a triple, because each form is emitted
+        and compiled separately.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -97,8 +97,8 @@ class Bench:
         """Make all runs that are not in the cache, and rank the candidates.
 
         If ``folder`` is not None, a CSV file, a JSON file and an SVG file are written to it. ``done`` is
-        called with the row of each run. The default cache is a hidden folder in ``folder``, so that an
-        interrupted bench can continue.
+        called with the row of each run. By default, the cache is a hidden folder in ``folder``. If the bench
+        is interrupted, the next call of this method uses the runs in the cache.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -138,9 +138,9 @@ def bench(
     - ``targets``: the names of programming languages in which the methods are emitted.
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
-    - ``forms``: forms of the equations, as in the option ``--form``, such as ``quaternion``. Methods that
-      integrate the coordinates without the group run on each of these forms. Most peers do so, too. The
-      default is all forms.
+    - ``forms``: forms of the equations, as in the option ``--form``, such as ``quaternion``. By default,
+      all forms are used. Most peers run on each form. Methods that treat the state as a vector in R^n also
+      run on each form. Methods that use the group run only on the equations of the scene.
 
     InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
     candidate contains the reason.
@@ -179,8 +179,8 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates for a method on a scene.
 
-    If the method integrates the coordinates without the group, there is one candidate for each element of
-    ``equations``. If it integrates on the manifold of the scene, there is only one candidate.
+    If the method treats the state as a vector in R^n, there is one candidate for each element of
+    ``equations``. If the method uses the group of the scene, there is only one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -201,7 +201,11 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate, followed by its target language unless this is the default."""
+    """Return the name of a candidate in the results.
+
+    The name is the label of the candidate. If a method is not emitted in the default language, the language
+    is added in parentheses.
+    """
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
@@ -258,8 +262,8 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return a curve of error against CPU time for every candidate with at least one successful run.
 
-    If a candidate was run on several forms of the equations, its curve omits a run if another form reaches
-    the same error in less time (:func:`frontier`).
+    If a candidate was run on several forms of the equations, the curve shows the fastest form at each
+    error (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

@@ -20,11 +20,11 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order of the recipes without a cut-off.
+"""Recipes that do not state a number of commutators are added only up to this order.
 
-A cut-off, such as the 2 in ``rkmk(2)``, is the number of commutators after which the series of dexp^{-1} is
-truncated. Without a cut-off, the compiler searches for the fewest commutators that give the order of the
-method. For orders above SEARCHED this search takes seconds.
+In the method ``rkmk(2)``, the series of dexp^{-1} is truncated after 2 commutators. If the number is missing,
+the compiler searches for the fewest commutators that give the order of the method. At higher orders, this
+search takes seconds.
 """
 
 
@@ -37,8 +37,8 @@ class Recipe:
     """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order of the method. It is the order that the file of the tableau claims, or in the
-      recipes of :func:`named` the order from the order conditions.
+    - ``order``: the order of the method, as stated in the file of the tableau. In the recipes of
+      :func:`named`, it is computed from the order conditions.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control.
@@ -83,8 +83,8 @@ class Recipe:
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene.
 
-    A method that integrates the coordinates has a recipe for each form of the equations. The methods use the
-    named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
+    If a method treats the state as a vector in R^n, each form of the equations has a recipe. The methods use
+    the named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -121,8 +121,8 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
     """Return True if the methods of a family can be defined by a tableau.
 
-    The result is False if the tableau cannot be read in a format of the family. It is also False if the
-    formulas of the family divide by the weights, and a weight is zero or cannot be shown to be nonzero.
+    The tableau must have a format that the family can read. If the formulas of the family divide by the
+    weights, it must be certain that all weights are nonzero.
     """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
@@ -135,11 +135,11 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    Some families have a cut-off, such as the 2 in ``rkmk(2)``. The cut-off is the number of commutators after
-    which a series is truncated. For each order only the smallest cut-off is used. A recipe without a cut-off
-    is added if the tableau is explicit and the order is at most :data:`SEARCHED`. A recipe is omitted if its
-    order is less than half the classical order of the tableau, because a tableau with fewer stages can have
-    the same order.
+    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. The cut-off is
+    the number of commutators after which a series is truncated. If several cut-offs give the same order, only
+    the smallest is used. A recipe without a cut-off is added if the tableau is explicit, its coefficients are
+    exact, and the order is at most :data:`SEARCHED`. Recipes are omitted if their order is less than half the
+    classical order of the tableau.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -151,7 +151,7 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
-            # The family cannot use the tableau on this scene.
+            # The family cannot use the tableau on this scene. Therefore there is no recipe.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
@@ -179,7 +179,7 @@ def size(tableau: Tableau) -> int:
 def is_explicit(tableau: Tableau) -> bool:
     """Return True if each stage of a tableau depends only on earlier stages.
 
-    The result is also True for a tableau that cannot be read as a Runge-Kutta tableau.
+    A tableau that cannot be read as a Runge-Kutta tableau is treated as explicit.
     """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
@@ -215,9 +215,9 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
     """Yield the recipes of the methods that ``methods`` names.
 
-    ``methods`` contains pairs (name of a method, True for step-size control). The attribute ``order`` of a
-    recipe is computed from the order conditions for the scene. A method that integrates the coordinates has a
-    recipe for each form of the equations.
+    Each pair in ``methods`` contains the name of a method and a flag for step-size control. The attribute
+    ``order`` of a recipe is computed from the order conditions for the scene. If a method treats the state as
+    a vector in R^n, each form of the equations has a recipe.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

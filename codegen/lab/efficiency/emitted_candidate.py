@@ -37,9 +37,9 @@ class EmittedCandidate:
     - ``exact``: the reference solution of the scene.
     - ``target``: the name of a programming language, such as ``c``.
     - ``budget``: the longest CPU time of a run in seconds.
-    - ``precompiled``: the result of :func:`compile_method`, if the caller has already computed it. The time
-      for this computation is then not included in ``emit_seconds``.
-    - ``equations``: the equations in one form, by default in the coordinates of the scene.
+    - ``precompiled``: the result of :func:`compile_method`, if the caller has already computed it. In
+      this case, ``emit_seconds`` does not include the time for this computation.
+    - ``equations``: the equations to integrate, by default those that the scene states.
     """
 
     scene: Problem
@@ -104,15 +104,16 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over ``spans`` times the time span of the scene, and return the total number of steps.
+        """Run over a time interval with equal steps, and return the total number of steps.
 
-        ``control`` is the number of steps in one time span.
+        The interval is ``spans`` times as long as the time span of the scene. ``control`` is the number of
+        steps for one time span.
         """
         self.runner.final(int(control), spans=spans)
         return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with more steps is needed after the runs that ``rows`` describes.
+        """Return True if no further run is needed. ``rows`` describes the previous runs.
 
         The result is True if the next run would take too long, or if rounding errors dominate.
         """

@@ -30,7 +30,7 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True if the equations are those that the scene states, in the coordinates of the scene."""
+        """True for the equations that the scene itself states."""
         return self.form is None or self.form.printed
 
     @property
@@ -46,7 +46,7 @@ class Equations:
     def error(self, state: Sequence[float], exact: Reference) -> float:
         """Return the distance of a state from the reference solution ``exact``, in the norm of the scene.
 
-        ``state`` lists the coordinates that the equations in this form use.
+        ``state`` lists the coordinates of ``self.problem``.
         """
         if self.form is not None and not self.form.printed:
             state = self.form.scene_state(FloatDomain(0.0), state)
@@ -54,9 +54,9 @@ class Equations:
 
 
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
-    """Return the equations of a scene in all its forms, or in the forms with the given keys.
+    """Return the equations of a scene in the forms with the given keys, such as ``quaternion``.
 
-    :class:`SceneError` is raised if the scene has no form with one of the keys.
+    If ``keys`` is empty, all forms are used. :class:`SceneError` is raised if a key is unknown.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}
