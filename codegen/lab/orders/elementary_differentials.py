@@ -75,8 +75,8 @@ class FrozenFields:
     """The elementary differentials of the field f of an autonomous scene at its initial point.
 
     The function f maps a point to an element of the Lie algebra. :meth:`tree` returns the elementary
-    differential of an ordered tree t (:mod:`orderconds.trees.levels`), an element of the Lie algebra denoted
-    F(t). At each point y, F(t) generates a tangent vector, which is denoted F(t).y. The vector field that
+    differential of an ordered tree t (:mod:`orderconds.trees.levels`). This element of the Lie algebra is
+    denoted F(t). The tangent vector that F(t) generates at a point y is denoted F(t).y. The vector field that
     maps y to F(t).y is called the frozen field of t.
     """
 
@@ -135,8 +135,8 @@ class CanonicalFields:
         """Return the elementary differential of a tree: the pair (xi, nu) = (D_mu K, -D_q K).
 
         K is a derivative of the Hamiltonian H(q, mu). For each branch at the root, H is differentiated once
-        (see the docstring of the class). D_mu and D_q denote derivatives with respect to mu and q. The pair is
-        returned as one tuple of numbers.
+        (see the docstring of the class). D_mu and D_q denote derivatives with respect to mu and q. The
+        pair is returned as one tuple of numbers.
         """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
