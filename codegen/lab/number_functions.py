@@ -12,7 +12,7 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key for tables in a dictionary of functions (:data:`Functions`).
+"""The key of the function that evaluates tables, in a dictionary of type :data:`Functions`.
 
 A table is a piecewise polynomial, given by its coefficients.
 """
@@ -20,17 +20,17 @@ A table is a piecewise polynomial, given by its coefficients.
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The value for the key :data:`TABLES` is a function of another kind. Its arguments are a table (a piecewise
-polynomial) and a function that converts exact numbers to the number type. It returns a function that
-evaluates the piecewise polynomial.
+The value for the key :data:`TABLES` is a function with two arguments. The first argument is a table, that is,
+a piecewise polynomial. The second argument is a function that converts exact numbers to the number type. The
+result is a function that evaluates the table.
 """
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions that formulas may call. They accept numbers that can be compared with ``<``.
+    """Return the functions that formulas may call, for one type of numbers.
 
-    ``source`` is a module or type that contains ``sin``, ``sqrt`` and the remaining functions of these
-    numbers. For floats, ``source`` is the module ``math``.
+    ``source`` is a module or class with the functions of these numbers, such as ``sin`` and ``sqrt``. For
+    floats, ``source`` is the module ``math``. The numbers must allow comparisons with ``<``.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -41,7 +41,7 @@ def of_scalars(source: object) -> Functions:
 
 
 def of_arrays(library: Scalar) -> Functions:
-    """Return the functions that formulas may call. They accept arrays.
+    """Return the functions that formulas may call, for arrays.
 
     ``library`` is NumPy, or a library with the same interface as NumPy.
     """
@@ -68,8 +68,8 @@ def of_arrays(library: Scalar) -> Functions:
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
     """Return the function with the given name. Raise ArithmeticError for a name that is not in ``functions``.
 
-    In place of a name, the argument can be a table (a piecewise polynomial). ``constant`` then converts the
-    exact coefficients of the table to the number type.
+    ``name`` can also be a table, that is, a piecewise polynomial. In this case, return a function that
+    evaluates the table. ``constant`` converts the exact coefficients of the table to the number type.
     """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
@@ -84,11 +84,12 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the knots, base points and coefficients as lists. ``constant`` converts each number.
+    """Return the numbers that define a piecewise polynomial. ``constant`` converts each number.
 
-    On each interval between knots, the function is a polynomial in x - b, where b is the base point of the
-    interval. The first list contains the knots. The second list contains the base points of all intervals.
-    Each further list contains the coefficients of one power of x - b on all intervals.
+    On each interval, the piecewise polynomial is a polynomial in x - b, where b is the base point of the
+    interval. The first list contains the knots, which separate the intervals. The second list contains the
+    base point of each interval. Each further list belongs to one power of x - b, and contains the coefficient
+    of this power on each interval.
     """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

@@ -62,11 +62,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about the deviations of one conserved quantity, for all methods.
+        """Return a sentence about the growth of the deviation of one conserved quantity with each method.
 
-        If the scene has an energy, the quantity is the energy. Otherwise it is the first invariant. If the
-        scene has no invariants, the manifold equations are used. The sentence names each law of growth that
-        occurs, such as ``bounded`` or ``drift``, and the methods with this law.
+        The quantity is the energy, or the first invariant if the scene has no energy. If the scene has no
+        invariants, the quantity is the residual of the manifold equations. The sentence names each law of
+        growth that occurs, such as ``bounded`` or ``drift``, and the methods with this law.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -79,7 +79,7 @@ class LongRuns(Measurement[Result]):
         return ""
 
     def section(self, result: Result, subject: Subject) -> Section:
-        """Return the section with diagrams of the growth of deviations, and with tables."""
+        """Return the section with the diagrams and tables of the long runs."""
         runs, effort = result.measured, subject.effort
         values = {
             "pictures": _pictures(runs, subject),
@@ -100,8 +100,8 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities for which the section shows a diagram.
 
-    The first is the energy, or the first invariant if the scene has no energy. The second is the manifold
-    equations.
+    The first name is the energy, or the first invariant if the scene has no energy. The name of the manifold
+    equations follows if the scene has such equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
@@ -131,8 +131,8 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
     """Return points (t, d), where d is the largest deviation of a quantity up to the time t.
 
-    A point is omitted if d is at most 1.02 times the value of d at the previous point. The last point is
-    never omitted.
+    A time is included only if d has grown by more than 2 % since the last included time. The final time is
+    also included if all deviations are finite.
     """
     for kept in run.kept:
         if kept.name != name:

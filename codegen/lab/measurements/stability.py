@@ -145,8 +145,8 @@ def _picture(methods: Sequence[Stability], subject: Subject) -> Picture | None:
     title = f"Regions of linear stability, {subject.scene.title}"
     return Picture(
         region_figure(f"{methods[0].scene} regions", title, functions),
-        "The regions of linear stability for y′ = λy, shaded: |R(hλ)| ≤ 1. Methods with the same stability "
-        "function have the same boundary. Their markers alternate along this boundary.",
+        "The regions of linear stability for y′ = λy, shaded: |R(hλ)| ≤ 1, where R is the stability function "
+        "of the method. If several methods have the same R, their markers alternate along the boundary.",
         subject.report_command("stability"),
     )
 
@@ -178,9 +178,9 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the label of a method, the number of extreme inputs, and a table of the results for them.
+    """Return the label of a method, the number of extreme inputs, and a table of the results.
 
-    If the step returns the same status message for several consecutive inputs, they share a row of the table.
+    Consecutive inputs with the same status message share a row of the table.
     """
     rows: list[dict[str, object]] = []
     names: list[str] = []
@@ -211,4 +211,4 @@ def endurance_text(run: Endurance) -> str:
     parts = [f"{run.steps} steps"]
     parts += [] if run.defect is None else [f"distance {scientific(run.defect)} from the manifold"]
     parts += [] if run.returned is None else [f"distance {scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else "; this distance is larger than rounding errors permit")
+    return ", ".join(parts) + ("" if run.held else ", which is more than rounding errors permit")

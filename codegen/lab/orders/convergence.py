@@ -2,7 +2,7 @@
 
 The error of a run is the distance of its final state from a reference solution (:mod:`codegen.lab.distance`).
 The slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is
-the step size. Further runs with half the step size are made until the slopes hardly change
+the step size. The step size is halved from run to run until the slopes hardly change
 (:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order conditions, from the tableau
 file or from the user.
 """
@@ -31,8 +31,8 @@ Such an order comes from the user or from the tableau file. Runs with very short
 """
 
 FEWEST = 4
-"""The smallest number of usable runs. Four runs give three slopes, which are needed to decide if the slopes
-have settled.
+"""The smallest number of usable runs. Four runs give three slopes. With fewer slopes, it cannot be decided if
+the slopes have settled.
 """
 
 
@@ -61,8 +61,8 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        The observed order is usually the last slope. Kinks of the solution can limit the order to a value
-        below the stated order (:attr:`limit`), and make the slopes irregular. The observed order is then the
+        The observed order is usually the last slope. Kinks of the solution make the slopes irregular. If
+        kinks limit the order to a value below the stated order (:attr:`limit`), the observed order is the
         slope between the first and the last usable run.
         """
         clean = self.refinement.clean
@@ -75,8 +75,8 @@ class Convergence:
     def verdict(self) -> str:
         """The result of the comparison of the observed order with the stated order.
 
-        It is ``holds``, ``fails`` or ``undecided``. Kinks of the solution can limit the order that a
-        method shows to a value below the stated order (:attr:`limit`). The result is then ``undecided``.
+        It is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is lower than the stated order, the
+        result is ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -89,9 +89,8 @@ class Convergence:
         The order is limited by kinks (points of the solution at which the field is not smooth). If there are
         no kinks, the limit is infinity.
         """
-        # Let k derivatives of the field be continuous at a kink. The step across the kink then has a local
-        # error proportional to h^(k+2). Because one step crosses the kink for every h, the error at the end
-        # also contains a term proportional to h^(k+2).
+        # Let k derivatives of the field be continuous at a kink. In each run, one step crosses the kink. The
+        # local error of this step is proportional to h^(k+2), and it remains a part of the final error.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -175,7 +174,7 @@ class NotEmitted:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds converge`` prints.
 
-        The lists of results of runs are empty, because a method that is not emitted makes no runs.
+        The lists that contain one entry for each run are empty, because the method cannot be run.
         """
         empty: list[object] = []
         return {

@@ -1,10 +1,10 @@
 """Exact elementary differentials of the field of a scene, computed with nilpotent numbers.
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
-that maps y to x.y is called a frozen field. To compute the derivative of a function along a frozen field, y
-is replaced by y + eps x.y, where eps^2 = 0. After k replacements with different numbers eps_1, ..., eps_k,
-the coefficient of the product eps_1 ... eps_k is the k-th derivative. The scene must be polynomial in its
-coordinates.
+that maps y to x.y is called a frozen field. To differentiate a function g along a frozen field, y is replaced
+by y + eps x.y, where eps^2 = 0. The derivative is the coefficient of eps in the value of g. For a derivative
+along k frozen fields, k numbers eps_1, ..., eps_k are used. The derivative is then the coefficient of their
+product. The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field f of an autonomous scene at its initial point.
 
-    The function f maps a point to an element of the Lie algebra. Trees and forests are ordered
-    (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of the Lie algebra to each tree t.
-    Let F(t).y be the tangent vector that F(t) generates at a point y. The vector field that maps y to F(t).y
-    is called the frozen field of t.
+    The function f maps a point to an element of the Lie algebra. :meth:`tree` returns the elementary
+    differential of an ordered tree t (:mod:`orderconds.trees.levels`). This element of the Lie algebra is
+    denoted F(t). The tangent vector that F(t) generates at a point y is denoted F(t).y. The vector field that
+    maps y to F(t).y is called the frozen field of t.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -87,10 +87,10 @@ class FrozenFields:
         self._known: dict[Tree, Vector] = {}
 
     def tree(self, tree: Tree) -> Vector:
-        """Return the elementary differential F(t) of a tree t, an element of the Lie algebra.
+        """Return the elementary differential F(t) of a tree t.
 
-        F(t) is a derivative of f at the initial point. Each branch b of t adds one differentiation along the
-        vector field that maps y to F(b).y.
+        F(t) is an element of the Lie algebra. It is a derivative of f at the initial point. For each branch b
+        of t, f is differentiated once along the frozen field of b.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -99,9 +99,9 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return a derivative of the coordinates at the initial point.
+        """Return a derivative of the coordinates of a point, evaluated at the initial point.
 
-        Each tree t of the forest adds one differentiation along the vector field that maps y to F(t).y.
+        For each tree t of the forest, the coordinates are differentiated once along the frozen field of t.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -119,10 +119,10 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex denotes a derivative of the Hamiltonian H(q, mu). Each branch at the vertex adds one
-    differentiation. Its direction comes from the pair (xi, nu) that :meth:`tree` returns for the branch. A
-    branch of kind 0 differentiates H with respect to q in the direction xi. A branch of kind 1 differentiates
-    H with respect to mu in the direction nu (:mod:`orderconds.trees.directed`).
+    A vertex denotes a derivative of the Hamiltonian H(q, mu). For each branch at the vertex, H is
+    differentiated once. Let (xi, nu) be the pair that :meth:`tree` returns for the branch. If the branch has
+    kind 0, H is differentiated with respect to q in the direction xi. If the branch has kind 1, H is
+    differentiated with respect to mu in the direction nu (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -134,8 +134,9 @@ class CanonicalFields:
     def tree(self, tree: DirectedTree) -> Vector:
         """Return the elementary differential of a tree: the pair (xi, nu) = (D_mu K, -D_q K).
 
-        Here K is the derivative of the Hamiltonian H in the directions of all branches at the root. D_mu and
-        D_q are the derivatives with respect to mu and q. The pair is returned as one list of numbers.
+        K is a derivative of the Hamiltonian H(q, mu). For each branch at the root, H is differentiated once
+        (see the docstring of the class). D_mu and D_q denote derivatives with respect to mu and q. The
+        pair is returned as one tuple of numbers.
         """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
@@ -153,8 +154,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    There are two kinds of differentials: velocities in the Lie algebra, and covectors in its dual. Group
-    elements are represented by matrices. The group R^n is represented by the matrices of translations.
+    The differentials are velocities in the Lie algebra, and covectors in its dual. A group element
+    is represented by a matrix. If the group is R^n, this matrix is the matrix of a translation.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

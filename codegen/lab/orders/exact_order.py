@@ -1,8 +1,8 @@
-"""The exact order of the emitted program of a step, computed from the Taylor series of its local error.
+"""The exact order of a method on a scene, computed from the Taylor series of the local error of a step.
 
-Slopes of errors only estimate the order. If the field of a scene is polynomial or rational, the Taylor
-coefficients of the local error are exact numbers. The order is p if the coefficient of h^(p+1) is the first
-coefficient that is not zero. Here h is the step size.
+An order that is computed from the errors of runs is an estimate. If the field of a scene is polynomial or
+rational, the Taylor coefficients of the local error are exact numbers. The order is p if the coefficient of
+h^(p+1) is the first coefficient that is not zero. Here h is the step size.
 
 The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
 this ring are replaced by nearby rational numbers. The new initial point is in general not on the manifold.
@@ -39,10 +39,13 @@ DENOMINATOR = 64
 class ExactLocalError:
     """The leading term of the local error of one step of size h, with exact coefficients.
 
-    ``certified`` is the order from the order conditions. If ``vanishes`` is False, ``order`` is the exact
-    order. ``coefficients`` are then the coefficients of h^(``order`` + 1), one for each coordinate in
-    ``symbols``. If ``vanishes`` is True, all computed coefficients are zero, and the exact order is at least
-    ``order``. ``coefficients`` is then empty. ``start`` is the initial state.
+    - ``certified``: the order from the order conditions.
+    - ``vanishes``: True if all computed coefficients of the local error are zero.
+    - ``order``: the exact order. If ``vanishes`` is True, ``order`` is a lower bound of the exact order.
+    - ``symbols``: the names of the coordinates.
+    - ``start``: the initial state.
+    - ``coefficients``: the coefficients of h^(``order`` + 1), one for each coordinate. If ``vanishes`` is
+      True, ``coefficients`` is empty.
     """
 
     scene: str
@@ -101,7 +104,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The entries ``stated_order`` and ``order`` are None, because no order was computed.
+        The entries ``stated_order`` and ``order`` are None.
         """
         return {
             "scene": self.scene,

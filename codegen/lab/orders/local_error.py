@@ -2,12 +2,12 @@
 
 In the first way, the interpreter executes the program of a step. The variables of the program are power
 series in h, not numbers. The coefficients of the series are exact. The result is the series of the state
-after one step. Picard iteration gives the series of the exact solution. The difference of the two series
-begins with a multiple of h^(p+1), where p is the order.
+after one step. Picard iteration gives the series of the exact solution. The difference of the two series is
+the local error. Its lowest power is h^(p+1), where p is the order.
 
-In the second way, the theory predicts the coefficient of h^(p+1) as a sum over the order conditions. Each
-summand is the residual of a condition times an elementary differential. The comparison of the two
-coefficients tests the program against the order conditions.
+In the second way, the coefficient of h^(p+1) is a sum over the order conditions. Each summand is the residual
+of a condition times an elementary differential. Both ways must give the same coefficient. This is a test of
+the program.
 """
 
 from __future__ import annotations
@@ -101,9 +101,10 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 
 
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficient of h^``power`` in the local error of each coordinate, from the order conditions.
+    """Compute the coefficient of h^``power`` in the local error from the order conditions.
 
-    The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
+    The result contains one number for each coordinate. The method must satisfy all order conditions of orders
+    lower than ``power``. ``scene`` is the problem for which
     the program of the step was generated. The scene must be autonomous and polynomial. If ``method`` is a
     symplectic partitioned method, the scene must also be Hamiltonian on T*R^n.
     """
@@ -123,9 +124,9 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return the order conditions of order ``power`` that the method violates.
+    """Return a pair for each order condition of order ``power`` that the method violates.
 
-    Each condition is a pair: the tree, forest or word to which it belongs, and its residual.
+    The pair contains the tree, forest or word of the condition, and the residual of the condition.
     """
     family = family_of(method)
     conditions = family.all_conditions(power)
@@ -147,9 +148,9 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over rooted trees t (a B-series).
 
-    The summand of t is F(t) residual(t)/symmetry(t). Here F(t) is the elementary differential of t,
-    residual(t) is the residual of its order condition, and symmetry(t) is the number of its automorphisms
-    (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1).
+    The summand of t is F(t) r(t) / s(t). Here F(t) is the elementary differential of t, r(t) is the residual
+    of the order condition of t, and s(t) is the number of automorphisms of t (Hairer, Lubich and Wanner,
+    *Geometric Numerical Integration*, III.1).
     """
     fields = FrozenFields(scene, method.ring)
     terms = [
@@ -174,9 +175,9 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over trees t with directed edges.
 
-    The sum contains the terms of order ``power`` in the P-series of the local error. The summand of t is F(t)
-    residual(t)/symmetry(t). Here F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`),
-    residual(t) is the residual of its order condition, and symmetry(t) is the number of its automorphisms.
+    The sum contains the terms of order ``power`` in the P-series of the local error. The summand of t is
+    F(t) r(t) / s(t). Here F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`), r(t) is
+    the residual of the order condition of t, and s(t) is the number of automorphisms of t.
     """
     fields = CanonicalFields(scene, method.ring)
     terms = [
@@ -189,8 +190,9 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 def _action(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error of a variational method, as a sum over words.
 
-    A word is a sequence of trees. The summand of a word is proportional to the coefficient of the word in the
-    numerical solution, minus its coefficient in the exact solution.
+    A word is a sequence of trees. For each word w, let d(w) be the coefficient of w in the series of the
+    numerical solution minus the coefficient of w in the series of the exact solution. The summand of w is
+    d(w) times a vector that depends only on w and the scene.
     """
     ring = method.ring
     family = family_of(method)

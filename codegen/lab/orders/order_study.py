@@ -26,7 +26,7 @@ COMPARED = 4 * FIRST
 """The number of steps of the runs that test if all targets compute the same result.
 
 The final state of the first target is compared with the final states of the remaining targets and of the
-interpreter. If a run with this number of steps fails, a larger number is used.
+interpreter. If one of these runs fails, all of them are repeated with a larger number of steps.
 """
 
 MOST_TIMED = 2560
@@ -40,9 +40,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target, such as C or Python.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference of a coordinate between final states of runs with equal steps. The
-      final state of the first target is compared with the final states of the remaining targets and of the
-      interpreter. ``spread`` is None if there is no number of steps with which all runs succeed.
+    - ``spread``: the largest difference of a coordinate between final states of different targets
+      (:func:`largest_difference`). The interpreter is compared like a target. ``spread`` is None if the final
+      states could not be compared.
     - ``artifact``: the emitted files for the default target.
     """
 
@@ -60,8 +60,8 @@ class OrderStudy:
 
     @property
     def verdict(self) -> str:
-        """The worst verdict of all targets. The order from bad to good is ``fails``, ``undecided``,
-        ``holds``.
+        """The worst verdict of all targets. ``fails`` is worse than ``undecided``, and ``undecided`` is worse
+        than ``holds``.
         """
         verdicts = {c.verdict for c in self.convergences.values()}
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
@@ -79,7 +79,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The results of an order study that the cache stores.
+    """The part of an :class:`OrderStudy` that is stored in the cache.
 
     ``refinements`` contains the runs for each target. ``times`` and ``spread`` have the
     same meaning as in :class:`OrderStudy`.
@@ -126,11 +126,11 @@ def order_study(
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Return the largest difference of a coordinate between the final state of the first runner and the final
-    states of the remaining runners.
+    """Compare the final state of the first runner with the final states of the remaining runners.
 
-    All runners make the same number n of steps. Here n is the first entry of ``steps`` that is at
-    least :data:`COMPARED` and with which all runs succeed. If there is no such entry, the result is None.
+    Return the largest difference of a coordinate. All runners make the same number of steps. Entries of
+    ``steps`` below :data:`COMPARED` are ignored. The first of the remaining entries is used for which all
+    runs succeed. If there is none, the result is None.
     """
     for n in steps:
         if n < COMPARED:
