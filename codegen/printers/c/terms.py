@@ -165,7 +165,7 @@ class Terms(Infix):
             start = int(term.number)
             # In C a contiguous part of an array is passed as a pointer to the first entry of the part.
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is an array with one entry. In C a cell is a pointer ``p``, and its entry is printed as ``*p``.
+        # A cell is an array with one entry. In C it is a pointer ``p``, and the entry is printed as ``*p``.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         # An array with the shape (0, n) has rows of length n. The number of rows is not known. C code stores
