@@ -1,7 +1,7 @@
-"""Expressions as infix text with few parentheses. The text has the same roundings as the expression tree.
+"""Prints expressions as infix text with few parentheses. Printing does not change the rounding errors.
 
-Expressions are rewritten only if no bit changes in IEEE arithmetic. For example, ``a + (-b)`` is printed as
-``a - b``. Operands of sums and products may be exchanged, but they are never regrouped.
+An expression is rewritten only if no bit of its result in IEEE arithmetic changes. For example,
+``a + (-b)`` is printed as ``a - b``, and ``-a + b`` as ``b - a``. Sums and products are never regrouped.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 class Rendering:
     """The text of an expression, its sign, and the precedence of the text.
 
-    ``segments`` contain the text without the sign. A line may break between two segments. ``negative`` is
-    True if the expression has a minus sign.
+    ``segments`` contains the text without the sign. A line may break between two segments. ``negative`` is
+    True if a minus sign is printed before the text.
     """
 
     segments: tuple[str, ...]
@@ -37,7 +37,7 @@ class Rendering:
 def number(value: Number) -> str:
     """Return the text of a constant. The constant is rounded once to a double.
 
-    The text has the smallest number of digits that determine the double.
+    The text is the shortest decimal text from which a compiler obtains exactly this double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
@@ -70,12 +70,12 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is stored separately. A product prints it before the first factor, and a sum prints
-                # it as the operator ``-``.
+                # The sign of a constant is not part of the text. In a sum the sign may become the operator
+                # ``-``. In a product it is printed before the first factor.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                # ``names`` replaces symbols that are not valid identifiers in the target language.
+                # For a symbol that is no valid identifier in the target language, ``names`` contains one.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
@@ -85,12 +85,12 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(*args)
             case "sub":
                 x, y = args
-                # x - y is the sum of x and -y in IEEE arithmetic, with the same rounding.
+                # In IEEE arithmetic, x - y and x + (-y) have the same rounded result.
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # ``a * (b * c)`` is printed as ``b * c * a``, which saves parentheses. Multiplication in IEEE
-                # arithmetic is commutative.
+                # To save parentheses, ``a * (b * c)`` is printed as ``b * c * a``. The result is the same,
+                # because multiplication in IEEE arithmetic is commutative. A constant ``a`` stays in front.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -109,7 +109,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
 
 
 def signed(x: Rendering) -> tuple[str, ...]:
-    """Return the segments of ``x`` with its sign. A negative sum is printed in parentheses."""
+    """Return the segments of ``x`` with its sign. The negative of a sum is printed as ``-(a + b)``."""
     if not x.negative:
         return x.segments
     if x.precedence == SUM:
@@ -131,15 +131,16 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
 
 
 def _sum(x: Rendering) -> bool:
-    """Return True if x is printed as a sum without parentheses. A negated sum has parentheses."""
+    """Return True if x is a sum without a minus sign. The negative of a sum is printed as ``-(a + b)``."""
     return x.precedence == SUM and not x.negative
 
 
 def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
-    # Division and multiplication associate to the left in C and in Python, so the left operand needs no
-    # parentheses.
+    # Division and multiplication associate to the left in C and in Python. Therefore a product on the left
+    # needs no parentheses, but a sum does.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
-    # On the right, a product keeps its parentheses: ``a * (b * c)`` and ``a * b * c`` may round differently.
+    # A product on the right needs parentheses, because ``a * (b * c)`` and ``a * b * c`` may have different
+    # rounding errors.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
-    # The rounding does not depend on the signs. The result is negative if exactly one operand is negative.
+    # The rounding does not depend on the signs. The result has a minus sign if exactly one operand has one.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

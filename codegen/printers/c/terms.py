@@ -37,17 +37,18 @@ def literal(precision: Precision, x: float) -> str:
 
 
 def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
-    """Return the notation of constants and function names in C: ``0.5f``, ``sqrtf``, helpers with a prefix.
+    """Return the conventions of C for constants and function names, such as ``0.5f`` and ``sqrtf``.
 
-    ``forms`` maps functions to the variants that a module uses, such as variants without branches.
+    Names of functions outside the mathematical library start with ``prefix``. ``forms`` maps the name of a
+    function to the name of the variant that the module calls, such as a variant without branches.
     """
 
     def called(name: str) -> str:
         name = forms(name)
         if name not in LIBRARY:
             return prefix + name
-        # The macro isfinite accepts all types. Other functions need the suffix of the format, because without
-        # it they would compute in double.
+        # ``isfinite`` is a macro for all number formats. Other names need the suffix of the format. In
+        # single precision ``sqrtf`` is called, because ``sqrt`` would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -56,8 +57,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 class Terms(Infix):
     """Writes the terms of one function in C.
 
-    ``pointers`` are the names of the parameters that are records, which C passes as pointers. ``tables`` are
-    the names of the tables of constants in the module.
+    C passes records as pointers. ``pointers`` contains the names of the parameters that are records.
+    ``tables`` contains the names of the constant arrays of the module.
     """
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
@@ -82,8 +83,8 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # If ``a`` is a NaN, ``a < b`` is false, so its negation must be true. ``a >= b`` would be false, so
-        # the negation is printed as ``!(a < b)``.
+        # The negation of ``a < b`` is printed as ``!(a < b)``, because ``a >= b`` is different if ``a`` is a
+        # NaN. Then ``!(a < b)`` is true, but ``a >= b`` is false.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -106,7 +107,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The expression may be a sum, so it has the precedence of a sum.
+                # The precedence of the printed expression is not known here. SUM is the weakest possible one.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -123,8 +124,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # Constant run-time inputs are passed as two arguments: the emitted function ``hold``, and a
-                # pointer to the values.
+                # Run-time inputs that are constant in time are passed as two arguments: the emitted function
+                # ``hold``, and a pointer to the values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -134,8 +135,8 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A function that the user supplies becomes two arguments."""
-        # C has no closures, so a function of the user is passed together with a pointer to its data.
+        """Return the text of a name. The name of a function that the user supplies gives two arguments."""
+        # C has no closures, so each function that the user supplies is passed with a pointer to its data.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -153,25 +154,24 @@ class Terms(Infix):
         return str(int(term.number))
 
     def access(self, term: Term) -> Text:
-        """Return the text of one of three terms: an entry of an array, a part of an array, or a field of a
-        record.
-        """
+        """Return the text of an access: an array entry, a part of an array, or a field of a record."""
         base = term.args[0]
         if term.op == "field":
-            # A record parameter is a pointer, and a local record is a value.
+            # A record that is a parameter is a pointer, so its fields need ``->``. A local record is not a
+            # pointer, so its fields need ``.``.
             arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
             return Text((f"{self.line(base)}{arrow}{term.text}",))
         if term.op == "part":
             start = int(term.number)
             # In C a contiguous part of an array is passed as a pointer to the first entry of the part.
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is an array with one entry. In C it is a pointer, and its entry is ``*pointer``.
+        # A cell is an array with one entry. In C it is a pointer ``p``, and the entry is printed as ``*p``.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        # The dimensions (0, n) mean any number of rows of length n. C code stores the rows one after the
-        # other in an array with one index.
+        # An array with the shape (0, n) has rows of length n. The number of rows is not known. C code stores
+        # the rows one after the other in an array with one index.
         if base.shape[0] == 0 and len(base.shape) > 1:
-            # The first row begins at the address of the array itself.
+            # Row 0 begins at the address of the array, so no offset is printed.
             if _is_zero(term.args[1]):
                 return self.text(base)
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
@@ -221,8 +221,9 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
-        format of the module.
+        """Return the text of a conversion between number formats.
+
+        The term ``wide`` converts to double. The term ``narrow`` converts to the number format of the module.
         """
         (x,) = term.args
         inner = self.text(x)

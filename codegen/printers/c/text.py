@@ -33,7 +33,7 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
     """
-    # No line may begin with a comma.
+    # Each comma belongs to the segment before it, so no line begins with a comma.
     segments = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
     return (f"{name}({segments[0]}", *segments[1:]) if segments else (f"{name}()",)
 
@@ -45,9 +45,9 @@ def comment(text: str) -> str:
 
 
 def block_comment(text: str) -> list[str]:
-    """Return the lines of a C comment with a text. An empty text gives no lines."""
+    """Return the lines of a C comment that contains ``text``. The list is empty if ``text`` is empty."""
     safe = comment(text)
-    # Words are never broken, so that commands can be copied.
+    # Words are never broken, so that a shell command in the text can be copied.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     # A comment of one line begins and ends on this line.
     if len(lines) < 2:
@@ -58,9 +58,10 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Return lines with ``start``, ``segments`` and ``end``. Spaces separate the segments.
+    """Return a statement as lines. The text is ``start``, then the segments, then ``end``.
 
-    ``separator`` is the text between ``start`` and the first segment.
+    ``separator`` is the text between ``start`` and the first segment. Segments on the same line are separated
+    by spaces. ``width`` limits the length of a line after the caller has indented it.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
@@ -69,7 +70,7 @@ def fill(
     for position, segment in enumerate(segments):
         # The last segment and ``end`` are on the same line, so the line must have space for both.
         tail = end if position == len(segments) - 1 else ""
-        # The margin of 8 leaves room for the indentation that the caller adds afterwards.
+        # The caller indents the lines later. A margin of 8 characters is left for this.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
             lines.append(f"    {segment}{tail}")
         else:
@@ -78,14 +79,16 @@ def fill(
 
 
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
-    """Return lines with several short statements each. ``width`` limits the length of a line.
+    """Return lines that contain the statements. As many statements as possible share a line.
+
+    ``width`` limits the length of a line after the caller has indented it.
 
     >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
     ['a = 1; b = 2;', 'c = 3;']
     """
     lines: list[str] = []
     for statement in statements:
-        # The margin of 8 leaves room for the indentation.
+        # The caller indents the lines later. A margin of 8 characters is left for this.
         if lines and len(lines[-1]) + 1 + len(statement) <= width - 8:
             lines[-1] += f" {statement}"
         else:

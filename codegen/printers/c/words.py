@@ -1,4 +1,4 @@
-"""Reserved words of emitted C."""
+"""Words that emitted C code must not use as names of variables."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ RESERVED = (
     | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
     | {f"{name}{kind}" for name in LIBRARY for kind in ("", "f")}
 )
-"""Words that no variable of any module may have as a name.
+"""Words that are forbidden as names of variables in emitted C code.
 
-The names of functions and tables of a module are reserved separately (:mod:`codegen.run.identifiers`). The
-words here are the keywords of C and C++, the functions of the mathematical library, and macros that common
-headers define. Names of helpers start with the prefix of their module, so they are not reserved.
+The most important ones are the keywords of C and C++, the functions of the mathematical library, and the
+macros of common headers. Each module also forbids the names of its own functions and tables
+(:mod:`codegen.run.identifiers`).
 """
