@@ -1,4 +1,7 @@
-"""The base class of measurements. A measurement computes a result, its JSON, and a section of the report."""
+"""The base class of measurements.
+
+A measurement computes a result. It also writes the result as JSON and as a section of the report.
+"""
 
 from __future__ import annotations
 
@@ -60,8 +63,10 @@ class Measurement(ABC, Generic[R]):
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return one sentence that summarises the result, for the beginning of the section. The default
-        is ''."""
+        """Return one sentence that summarises the result. The section begins with this sentence.
+
+        If a subclass does not define this method, the result is ''.
+        """
         return ""
 
     def holds(self, result: R) -> bool:
@@ -81,7 +86,10 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result for a subject. The first call measures. Later calls return the stored result."""
+        """Return the result for a subject.
+
+        The first call makes the measurement and stores the result. Later calls return the stored result.
+        """
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

@@ -2,9 +2,10 @@
 
 Each result is stored in a file of its own. The file name is a digest of the key. The key contains the inputs
 of the measurement, such as the emitted files and the settings. The kind of processor is added to every key.
-The file also contains a digest of the stored result. If the file is damaged, or if the result has the wrong
-type, the measurement is made again. An interrupted write leaves no damaged file, because every file is
-written under a temporary name and then renamed. The cache does not use a folder that another user owns.
+The file also contains a digest of the stored result. If the file is damaged, or if the stored result does not
+have the expected type, the measurement is made again. Every file is written under a temporary name and then
+renamed. Therefore an interrupted write leaves no damaged file. The cache does not use a folder that another
+user owns.
 """
 
 from __future__ import annotations
@@ -47,12 +48,12 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the result with the key ``key``. If no result is stored, call ``measure`` and store its
-        result.
+        """Return the stored result with the key ``key``.
 
-        ``kind`` is the type of the result, which may consist of dataclasses, tuples, numbers and strings.
-        Values in ``key`` must have the same ``repr`` in every process. If the folder cannot be used, nothing
-        is stored and no error is raised. An exception that ``measure`` raises is not caught.
+        If no such result is stored, ``measure`` computes the result, and the result is stored. ``kind`` is
+        the type of the result. The result may consist of dataclasses, tuples, numbers and strings. The values
+        in ``key`` must have the same ``repr`` in every process. If the folder cannot be used, nothing is
+        stored, and no error is raised. Exceptions of ``measure`` are not caught.
         """
         result = self.find(key, kind)
         if result is None:
@@ -75,7 +76,7 @@ class MeasurementCache:
             if hashlib.sha256(body).digest() != digest:
                 return None
             return msgspec.msgpack.decode(body, type=kind)
-        except (OSError, msgspec.DecodeError):  # ValidationError is a subclass of DecodeError.
+        except (OSError, msgspec.DecodeError):  # Includes ValidationError, which reports a wrong type.
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:
@@ -110,9 +111,9 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Set the access mode of a folder to 0700, so that only its owner can use it, and return True.
+    """Set the access mode of ``folder`` to 0700, so that only its owner can use it. Return True on success.
 
-    If the path is a symbolic link, or not a folder that the current user owns, change nothing and return
+    If ``folder`` is a symbolic link, or if another user owns ``folder``, nothing is changed and the result is
     False.
     """
     try:

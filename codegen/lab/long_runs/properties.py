@@ -34,8 +34,8 @@ class Properties:
     - ``symmetric``: True if the method is symmetric.
     - ``steady``: False if the deviation of the first conserved quantity grows over many steps.
     - ``quantity``: the name of the first conserved quantity, or '' if there is none.
-    - ``reversal``: the distance from the start after a step of size h and a step of size -h, divided by the
-      change of the state in the first of these steps.
+    - ``reversal``: the relative error with which a step of size -h undoes a step of size h
+      (:func:`reversal`).
     """
 
     method: str
@@ -75,17 +75,18 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Make a step of size h and a step of size -h, and return the distance of the final state from the start.
+    """Test if a step of size -h undoes a step of size h.
 
-    The distance is divided by the change of the state in the step of size h. The result is None if a step
-    fails, or if the step of size h does not change the state.
+    The result is the distance between the state before the two steps and the state after the two steps,
+    divided by the change of the state in the step of size h. If a step fails, or if the step of size h does
+    not change the state, the result is None.
     """
     problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins at the state after the first step. The initial state may be special, and from a
-        # special state even a method that is not symmetric may return to the start.
+        # The test does not begin at the initial state, but one step later. The initial state may be special:
+        # a method that is not symmetric may pass the test there.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

@@ -1,16 +1,18 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-In exact arithmetic, a method may conserve invariants and the equations of the manifold. A quantity counts as
-conserved if a step that is computed with 60 digits does not change it. The growth of rounding errors is
-measured in the conserved quantities. With independent rounding errors, the deviation of a conserved quantity
-grows like the square root of the number of steps (Brouwer 1937). With biased rounding errors, it grows in
-proportion to the number of steps. For example, if a body rotates by the same angle in every step, the same
-rounding error occurs in every step. Compensated summation does not remove this error.
+Some methods conserve a quantity exactly, apart from rounding errors. Then the deviation of the quantity shows
+how the rounding errors grow. A quantity counts as conserved if a step that is computed with 60 digits does
+not change it.
 
-Several runs are made, which start from different states of one trajectory. Deviations are computed with 60
-digits. The root mean square of the deviations over all runs is computed for several numbers of steps, and the
-exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife method:
-for each run, the fit is repeated without this run.
+If the rounding errors are independent, the deviation grows like the square root of the number of steps
+(Brouwer 1937). If the rounding errors are biased, the deviation grows in proportion to the number of steps.
+For example, a body that rotates by the same angle in every step may have the same rounding error in every
+step. Compensated summation does not remove such an error.
+
+Several runs start from different states of one trajectory. The deviations are measured after several numbers
+of steps, and their root mean square over all runs is computed. The growth of the root mean square is fitted
+by a power of the number of steps. The confidence interval of the exponent comes from the jackknife method,
+which repeats the fit without the first run, without the second run, and so on.
 """
 
 from __future__ import annotations
@@ -39,7 +41,10 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps between the initial states of consecutive runs. The states are on one trajectory."""
+"""The number of steps from the initial state of a run to the initial state of the next run.
+
+All initial states are on one trajectory.
+"""
 
 TIMES = 9
 """The number of measurements of a deviation in a run.
@@ -57,13 +62,13 @@ The change is computed with 60 digits.
 CHAIN = 3
 """The number of consecutive steps that are made to test whether a step changes a quantity.
 
-One step is not enough, because it may leave a quantity unchanged by chance if its initial state is special.
+One step is not enough. From a special initial state, a step may leave a quantity unchanged by chance.
 """
 
 NEARLY = 1e-14
 """The bound for the relative change of a quantity in a step from a state that contains rounding errors.
 
-The bound :data:`EXACT` is too small for such a state, because it is not exactly on the manifold.
+Such a state is not exactly on the manifold. Therefore the bound :data:`EXACT` is too small.
 """
 
 
@@ -73,8 +78,9 @@ class Growth:
 
     - ``quantity``: the name of the quantity.
     - ``compensated``: True if the steps use compensated summation.
-    - ``sizes``: for each number of steps in ``steps``, the root mean square of the relative deviation.
-    - ``exponent``: the fitted exponent p. After n steps, the size is roughly proportional to n^p.
+    - ``steps``: the numbers of steps after which the deviation is measured.
+    - ``sizes``: the root mean square of the relative deviations of all runs, for each entry of ``steps``.
+    - ``exponent``: the fitted exponent p. After n steps, the root mean square is roughly proportional to n^p.
     - ``half_width``: the half width of the 95 % confidence interval of the exponent.
     """
 
@@ -87,15 +93,15 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The law of growth, derived from ``exponent`` and its confidence interval.
+        """The name of the law of growth, derived from the confidence interval of ``exponent``.
 
-        - ``bounded``: the confidence interval of the exponent is below 1/4.
-        - ``random walk``: the interval contains 1/2.
-        - ``systematic``: the interval contains 1.
+        - ``bounded``: the whole interval is below 1/4.
+        - ``random walk``: the interval contains 1/2, but not 1.
+        - ``systematic``: the interval contains 1, but not 1/2.
         - ``random walk or systematic``: the interval contains 1/2 and 1.
-        - ``neither law``: none of these cases applies.
+        - ``neither law``: no other case applies.
 
-        To test if the interval contains 1/2 or 1, a half width below 0.1 is replaced by 0.1.
+        If the half width of the interval is below 0.1, the tests for 1/2 and 1 use the half width 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -153,10 +159,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state) on one trajectory. These are the initial states of the measured runs.
+    """Return the initial times and states of the measured runs as pairs (time, state).
 
-    The integrator in ``run`` computes the trajectory. ``run`` is a pair (compensated, integrator), where
-    ``compensated`` is True if the integrator uses compensated summation.
+    All states are on one trajectory. ``run`` is a pair (compensated, integrator). The integrator computes the
+    trajectory, and ``compensated`` is True if the integrator uses compensated summation.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -173,9 +179,9 @@ def exactly_conserved(
     """Return functions that evaluate the exactly conserved quantities. The keys are the names of quantities.
 
     From each pair (time, state) in ``starts``, a step is computed with 60 digits. A quantity counts as
-    conserved if its relative change is below a bound in every step. For the first state, which is exact, the
-    bound is :data:`EXACT`. Rounding errors have moved the remaining states off the manifold, so their bound
-    is :data:`NEARLY`. The result is empty if the interpreter cannot make a step.
+    conserved if its relative change is below a bound in every step. The bound is :data:`EXACT` for the step
+    from the first state. The bound is :data:`NEARLY` for all other steps, because they start from states
+    with rounding errors. If the interpreter cannot make a step, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -196,10 +202,10 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each conserved quantity in one of :data:`CHAIN` consecutive steps.
+    """Return the largest change of each conserved quantity in a step.
 
-    The steps begin at the initial state and are computed with 60 digits. The result is empty if the
-    interpreter cannot make them.
+    The changes in the first :data:`CHAIN` steps from the initial state are compared. The steps are computed
+    with 60 digits. If the interpreter cannot make one of the steps, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -242,8 +248,8 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 class _Sizes:
     """Computes the sizes of quantities, by which deviations are divided.
 
-    The size of a quantity is the absolute value of the quantity. If the terms of the quantity cancel, the
-    size is the magnitude: the sum of the absolute values of the terms.
+    The size of a quantity is usually its absolute value. If the terms of the quantity cancel, the size is the
+    sum of the absolute values of the terms.
     """
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
@@ -252,7 +258,7 @@ class _Sizes:
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
         """Return the size of the quantity ``name``. ``value`` is its value at the given state and time.
 
-        For the equations of the manifold, the result is 1.
+        The equations of the manifold are zero on the manifold. Their size is therefore defined as 1.
         """
         if name == MANIFOLD:
             return 1
@@ -281,7 +287,7 @@ def _deviations(
     def values(state: Sequence[float], count: int) -> dict[str, Vector]:
         carries = state[size:] if carried else [0.0] * size
         exact = [number(x) + number(c) for x, c in zip(state[:size], carries, strict=True)]
-        # A conserved quantity may depend on the time.
+        # The time is an argument, because a conserved quantity may depend on it.
         time = number(t) + count * number(h)
         return {name: evaluate(exact, time) for name, evaluate in kept.items()}
 
@@ -300,9 +306,10 @@ def _deviations(
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
     """Return the growth of the deviations of the quantity ``name``.
 
-    ``members`` contains one list for each run: the deviations after the numbers of steps in ``counts``. The
-    exponent is fitted to the root mean square over all runs. Its confidence interval comes from the
-    jackknife method. ``carried`` is True for runs with compensated summation.
+    ``counts`` contains several numbers of steps. ``members`` contains a list for each run, with the deviation
+    after each of these numbers of steps. The root mean square of the deviations over all runs is computed,
+    and the exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife
+    method. ``carried`` is True for runs with compensated summation.
     """
     import scipy.stats
 

@@ -1,11 +1,18 @@
 """The symplectic defect of a step on T*G, the cotangent bundle of a group G.
 
-A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures by how
-much the tangent map changes this form. Let q be an element of G, and mu its momentum. In right trivialisation
-a tangent vector at (q, mu) is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The
-symplectic form maps the pairs (xi_1, nu_1) and (xi_2, nu_2) to the number <nu_2, xi_1> - <nu_1, xi_2> -
-<mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by
-central differences. For these, steps are computed with 40 digits.
+A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures how
+much the tangent map changes this form. The tangent map is approximated by central differences of steps that
+are computed with 40 digits.
+
+Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
+a pair (xi, nu). Here xi is an element of the Lie algebra, and nu is an element of the dual of the Lie
+algebra. The value of the symplectic form for two pairs (xi_1, nu_1) and (xi_2, nu_2) is
+(H. Marthinsen, *Lie group integrators*, eq. (2.26)):
+
+    <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]>
+
+The brackets <nu, xi> denote the pairing of the dual with the Lie algebra, and [xi_1, xi_2] is the Lie
+bracket.
 """
 
 from __future__ import annotations
@@ -38,7 +45,7 @@ If the iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""The symplectic defect is measured at states where no conserved quantity has a larger relative deviation.
+"""The largest relative deviation of a conserved quantity at states where the symplectic defect is measured.
 
 The first state with a larger deviation and all later states are excluded.
 """
@@ -47,10 +54,10 @@ The first state with a larger deviation and all later states are excluded.
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The states are the initial state, the state in the middle, and the state with the fastest motion. If a
-    relative deviation of a conserved quantity exceeds :data:`LEFT`, they are selected only from the states
-    before this event. Raises ArithmeticError if the implicit equations of a step cannot be solved with 40
-    digits.
+    The three states are the first state, the middle state, and the state with the fastest motion. If the
+    relative deviation of a conserved quantity exceeds :data:`LEFT` at a state of the run, this state and all
+    later states are excluded. If the implicit equations of a step cannot be solved with 40 digits,
+    ArithmeticError is raised.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -86,14 +93,15 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the symplectic defect of a step of size ``h``: the relative size of a matrix D.
+    """Return the symplectic defect of a step of size ``h``.
 
-    The matrix is D = J^T Omega(end) J - Omega(start), where J is the tangent map of the step and Omega is the
-    matrix of the symplectic form. The result is the largest absolute entry of D, divided by the largest
-    absolute entry of Omega(start). ``state`` contains the coordinates of the group element and then those of
-    the momentum. The scene must be Hamiltonian. Implicit equations are solved by fixed-point iteration. If
-    this fails, Newton's method starts from ``near``, the solutions that the emitted code found. Raises
-    :class:`NotConverged` if ``near`` is None or if Newton's method also fails.
+    Let J be the matrix of the tangent map of the step. Let A and B be the matrices of the symplectic form
+    before and after the step. The defect is the largest absolute entry of the matrix transpose(J) B J - A,
+    divided by the largest absolute entry of A.
+
+    ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
+    Implicit equations are solved by fixed-point iteration. If the iteration fails, Newton's method starts
+    from ``near``, the solutions of the emitted code. Raises :class:`NotConverged` if no solution is found.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -114,8 +122,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call solves the implicit equations of the step with 40 digits and stores the result in
-        # ``solution``. Newton's method starts from ``solution`` in all later steps.
+        # This call stores the solution with 40 digits in ``solution``, where the calls of step() below start.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

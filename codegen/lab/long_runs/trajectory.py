@@ -1,7 +1,7 @@
 """The record of a long run: states at equally spaced times, and deviations of conserved quantities.
 
 The stored states are called samples. The conserved quantities are evaluated after every step. For each
-interval between two samples, only the mean, the largest and the smallest deviation are stored.
+interval between two samples, only a summary of the deviations is stored (:class:`Series`).
 """
 
 from __future__ import annotations
@@ -46,8 +46,9 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
-    A deviation is the difference of the quantity from ``start``. ``start`` is the initial value of an
-    invariant, or zero for the equations of the manifold. The lists have one entry for each interval:
+    A deviation is the value of the quantity minus ``start``. For an invariant, ``start`` is the initial
+    value. For the equations of the manifold, ``start`` is zero, and the deviation is the largest absolute
+    residual. The lists have one entry for each interval:
 
     - ``deviations``: the mean deviation.
     - ``peaks``: the largest absolute deviation.
@@ -60,9 +61,9 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the mean, the largest and the smallest deviation of one interval.
+        """Append the entries of one interval to the three lists.
 
-        ``values`` are the signed deviations after each step of the interval.
+        ``values`` contains the deviation after each step of the interval.
         """
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
@@ -88,7 +89,7 @@ class Trajectory:
     - ``failure``: the message of a failed step, or ''.
     - ``counts``: for each sample, the number of steps since the beginning of the run.
     - ``scales``: the size of each quantity (:func:`scale`).
-    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
+    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms in the initial state.
     """
 
     times: list[float]
@@ -136,8 +137,9 @@ def record(
 def scale(start: float, magnitude: float) -> float:
     """Return the size of a quantity, by which its deviations are divided.
 
-    The size is the absolute initial value, or the magnitude if the terms of the quantity cancel
-    (:data:`CANCELLED`). If both are zero, the size is 1.
+    ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
+    terms. The size is usually the absolute value of ``start``. If the terms cancel (:data:`CANCELLED`), the
+    size is ``magnitude``. If ``start`` and ``magnitude`` are zero, the size is 1.
 
     >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
     (2.0, 3.0, 1.0)
@@ -148,8 +150,9 @@ def scale(start: float, magnitude: float) -> float:
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the magnitude of each conserved quantity at the initial state.
 
-    The magnitude is the sum of the absolute values of the terms. A magnitude of zero is replaced by the
-    largest magnitude in the first tenth of the record. The magnitude of the manifold equations is always 1.
+    The magnitude of a quantity is the sum of the absolute values of its terms. If this sum is zero at the
+    initial state, the largest sum in the first tenth of the samples replaces it. The magnitude of the
+    equations of the manifold is always 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -194,8 +197,9 @@ def _append(
 ) -> None:
     """Append the samples of a chunk of steps to the record of a run.
 
-    ``rows`` contains the last state of the previous chunk and then the states of this chunk. Every state with
-    an index that is a multiple of ``stride`` becomes a sample. The last state is also a sample.
+    The first row of ``rows`` is the last state of the previous chunk. The further rows are the states after
+    the steps of this chunk. Every ``stride``-th state of the chunk becomes a sample. The last state of the
+    chunk is always a sample. ``first`` is the initial time of the run.
     """
     count = len(rows) - 1
     if not count:

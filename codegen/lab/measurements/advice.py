@@ -23,7 +23,7 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""A method is measured only if its predicted CPU time is at most SAFETY times the best measured time."""
+"""The safety factor of predicted CPU times. With a larger factor, the search measures more methods."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +54,9 @@ class Advised:
 class Line:
     """A requirement on the method, and the fastest methods that satisfy it.
 
-    ``need`` is the name of the requirement, and ``meaning`` explains it. ``best`` has one entry
-    for each error 10^-k with k in :data:`DECADES`. The entry is the fastest method that reaches the error, or
-    None if there is no such method.
+    ``need`` is the name of the requirement, and ``meaning`` explains it. For each error 10^-k with k in
+    :data:`DECADES`, ``best`` contains the fastest method that reaches the error, or None if no method
+    reaches it.
     """
 
     need: str
@@ -77,10 +77,11 @@ class Searched:
 
 @dataclass(frozen=True)
 class Recommendations:
-    """The content of the section: the fastest methods, and properties of all methods of the report.
+    """The content of the section with advice on the choice of a method.
 
-    ``advice`` contains the fastest methods for each requirement. ``complete`` is False if the time limit
-    ended the search.
+    - ``advice``: the fastest methods for each requirement.
+    - ``features``: the properties of the methods that the report measures.
+    - ``complete``: False if the time limit ended the search for the fastest methods.
     """
 
     advice: tuple[Line, ...]
@@ -97,9 +98,10 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search for the fastest methods. Also determine properties of all methods that the report measures.
+        """Search for the fastest methods, and determine properties of all methods that the report measures.
 
-        If the user named methods, only these methods are searched. Otherwise the whole library is searched.
+        If the user named methods, the search considers only these methods. Otherwise it considers the whole
+        library.
         """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
@@ -128,11 +130,7 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence that names two methods.
-
-        The first is the fastest for the largest error. The second is the fastest for the smallest error that
-        a method reaches.
-        """
+        """Return a sentence with the fastest methods for the largest and for the smallest reached error."""
         own = result.advice[0].best if result.advice else ()
         choices = [
             f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
@@ -187,10 +185,10 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return the result of an incomplete search, improved with the methods that the report measures.
 
-    For each requirement and error, the fastest measured method that satisfies the requirement is determined.
-    Its time is interpolated between runs. If the search found no method or a slower method, the measured
-    method replaces it. Requirements that concern long times are left out, because only the search makes long
-    runs.
+    For each requirement and error, the fastest suitable method of the report is determined. The CPU time of
+    this method is interpolated between its runs. If the search found no method or a slower method, the
+    result contains the method of the report. The results for requirements that concern long times are not
+    changed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -212,9 +210,8 @@ def completed(
 def monotone(line: Line) -> Line:
     """Return a copy of ``line`` in which the CPU times increase, or stay equal, as the errors decrease.
 
-    A run that reaches a small error also reaches all larger errors. If this run is faster than the run for a
-    larger error, it replaces the run for the larger error. For example, the run for the larger error may be
-    slow because the search has halved its step size to preserve a conserved quantity over long times.
+    An entry of ``line`` is replaced if the entry for a smaller error has a shorter time. This is correct,
+    because a method that reaches the smaller error also reaches the larger error.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
@@ -264,7 +261,8 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The texts are the name of the method, its CPU time, its steps, and the command that emits the integrator.
+    The texts are the name of the method, the CPU time, the step size or tolerance with the number of steps,
+    and the command that emits the integrator.
     """
     if best is None:
         return None

@@ -51,7 +51,7 @@ class FamilyConditions:
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The order conditions of all families of methods, and the order studies of all methods of the report."""
+    """The order conditions of all families of methods, and the orders of all methods of the report."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
@@ -91,8 +91,8 @@ class Conditions(Measurement[ConditionTables]):
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
-        count = f"{exact} of {total}" if exact < total or total == 1 else f"All {total}"
-        return f"{count} methods violate conditions of the next order, so their computed order is exact."
+        count = f"{exact} of {total}" if exact < total or total == 1 else f"all {total}"
+        return f"The computed order is exact for {count} methods: they violate conditions of the next order."
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
         """Return the section with a table of conditions for each family, and the violated conditions."""
@@ -111,9 +111,9 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return pairs (family, order) for all families of the methods.
+    """Return a pair (family, order) for each family of the methods.
 
-    The report shows all conditions of the family up to this order.
+    The report shows all conditions of the family up to the order in the pair.
     """
     highest: dict[str, int] = {}
     for each in study:

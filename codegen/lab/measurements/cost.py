@@ -25,7 +25,7 @@ from codegen.scenes import file_stem
 
 @dataclass(frozen=True)
 class CostResult:
-    """The results of the runs, and the candidates (methods and other integrators) that made the runs."""
+    """The results of all runs. ``candidates`` are the methods and peers (other integrators) of the runs."""
 
     result: Result
     candidates: tuple[Candidate, ...]
@@ -39,9 +39,9 @@ class Cost(Measurement[CostResult]):
     about = "the error and the CPU time of methods and peers (other integrators); the operations of a step"
 
     def run(self, subject: Subject) -> CostResult:
-        """Measure all methods and peers (other integrators) of the page.
+        """Measure all methods and peers (other integrators) of the subject.
 
-        The methods in ``subject.methods`` run with equal steps, and those in ``subject.adaptive`` run with
+        The methods in ``subject.methods`` run with equal steps. The methods in ``subject.adaptive`` run with
         step-size control.
         """
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
@@ -97,7 +97,7 @@ class Cost(Measurement[CostResult]):
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables of the template of this section."""
+    """Return the variables of the template of the section about run times."""
     name, last = result.scene.name, float(result.scene.span[1])
     title = f"Error against CPU time, {result.scene.title}"
     picture = efficiency_figure(
@@ -106,10 +106,10 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             picture,
-            "Error against the CPU time of the whole run. The time is the shortest of several measurements. "
-            "A broad line leads from it to the upper quartile of the measured times. Dashed lines with open "
-            "markers: peers. Dash-dotted lines: step-size control. Dotted lines: slopes of methods of order "
-            "p with equal steps.",
+            "Error against the CPU time of the whole run. Each point shows the shortest of several measured "
+            "times. A broad line extends from the point to the upper quartile of the times. Dashed lines "
+            "with open markers show peers (other integrators). Dash-dotted lines show methods with step-size "
+            "control. Dotted lines show the slopes of methods of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [
@@ -132,7 +132,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return a text that lists the errors 10^-k for all k in ``numbers``, which increase.
+    """Return a text that lists the error 10^-k for each k in the sorted list ``numbers``.
 
     Consecutive numbers are printed as a range.
 
@@ -151,8 +151,9 @@ def _decades(numbers: Sequence[int]) -> str:
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the rows of a table with one row for each method and peer (other integrator).
 
-    A row contains the times of emission and compilation, and the operations and the CPU time of one step. The
-    values of a step are taken from the successful run with the shortest steps.
+    A row contains the time of emission and the time of compilation. It also contains the average numbers of
+    operations in a step and the average CPU time of a step. These averages are taken from the successful run
+    with the smallest steps.
     """
     lines = []
     for label, rows in entries.items():

@@ -40,7 +40,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         if len(lengths) == 1:
             return f"The emitted code of {shortest} has {least} lines."
         return (
-            f"{shortest} has the shortest emitted code ({least} lines), "
+            f"{shortest} has the shortest emitted code ({least} lines), and "
             f"{longest} has the longest emitted code ({most} lines)."
         )
 

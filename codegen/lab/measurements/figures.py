@@ -34,8 +34,8 @@ class Stored:
 class Result:
     """A figure of a scene.
 
-    ``drawn`` contains its picture. If the figure could not be drawn, ``drawn`` is None and ``failure`` is the
-    reason.
+    ``drawn`` is the picture of the figure. If the figure could not be drawn, ``drawn`` is None, and
+    ``failure`` is the reason.
     """
 
     figure: Figure
