@@ -52,8 +52,8 @@ class Prepared:
 
     - ``run``: ``run(n)`` integrates over n times the length of the time span. The default of n is 1. If the
       end is not reached, ``run`` raises :class:`PeerFailed`.
-    - ``idle``: a function that integrates over an empty interval. The time that it takes is the overhead of a call.
-      ``idle`` is None if the overhead is negligible.
+    - ``idle``: a function that integrates over an empty interval. The time of this call is the
+      overhead of a call of ``run``. ``idle`` is None if the overhead is negligible.
     """
 
     run: Run

@@ -84,8 +84,8 @@ class Canvas:
 
         ``columns`` is the largest number of panels in a row. If ``columns`` is 2 and there are three panels,
         all three are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of the
-        picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is True,
-        the panels have three axes.
+        picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is
+        True, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
