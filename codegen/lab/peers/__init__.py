@@ -2,9 +2,9 @@
 
 A peer integrates the differential equation of a scene in the coordinates of the state. The right-hand side is
 compiled if the library of the peer permits compilation. A peer whose name ends in ``projected`` projects the
-state onto the manifold after each step. There is no projected variant of LSODA, because LSODA also uses the
-states of earlier steps, and these states would not be projected. The time before the first step, such as the
-time of compilation, is reported separately as set-up time.
+state onto the manifold after each step. There is no such peer for LSODA: this multistep method stores data of
+earlier steps, which a projection of the current state would leave unchanged. The time before the first step,
+such as the time of compilation, is reported separately as set-up time.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from orderconds.errors import InputError, UnknownName
 class PeerFailed(ArithmeticError):
     """Raised if a peer does not reach the end of the time span.
 
-    The message is the reason that the peer reports.
+    The message contains the reason.
     """
 
 
@@ -31,7 +31,7 @@ class Outcome:
     """The result of a run of a peer: the final state, the number of steps, and the number of field
     evaluations.
 
-    If the peer does not count the evaluations, their number is None.
+    If the peer does not count the evaluations, ``evaluations`` is None.
     """
 
     state: tuple[float, ...]
@@ -43,16 +43,17 @@ class Run(Protocol):
     """The type of a function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate from the start of the time span, over ``spans`` times its length."""
+        """Integrate from the start of the time span, over ``spans`` times the length of the time span."""
 
 
 @dataclass(frozen=True)
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or number of steps.
 
-    ``run(n)`` integrates over n times the length of the time span. The default of n is 1. The function raises
-    :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval, to
-    measure the overhead of a call. ``idle`` is None if the overhead is negligible.
+    - ``run``: ``run(n)`` integrates over n times the length of the time span. The default of n is 1. If the
+      end is not reached, ``run`` raises :class:`PeerFailed`.
+    - ``idle``: a function that integrates over an empty interval. The time of this call is the
+      overhead of a call of ``run``. ``idle`` is None if the overhead is negligible.
     """
 
     run: Run
@@ -95,9 +96,9 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""For each peer: its module in ``codegen.lab.peers``, and the Python package that must be installed.
+"""Maps the name of each peer to the name of its module and the name of the Python package that it needs.
 
-The name of the package is '' if the peer needs no package.
+The module is in ``codegen.lab.peers``. The name of the package is '' if the peer needs no package.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
@@ -111,7 +112,10 @@ GROUPS = {
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""The groups of peers that a user can name, with the names of their peers."""
+"""Maps the name of each group of peers to the names of the peers in the group.
+
+A user can give the name of a group in place of the names of its peers.
+"""
 
 
 def installed(name: str) -> bool:
@@ -127,8 +131,8 @@ def installed(name: str) -> bool:
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
     """Return the named peers in the order of :data:`PEERS`.
 
-    The name of a group means all installed peers of the group. Raises :class:`UnknownName` for an unknown
-    name, and :class:`InputError` for the name of a peer that is not installed.
+    A name in :data:`GROUPS` selects all installed peers of this group. Raises :class:`UnknownName` for an
+    unknown name, and :class:`InputError` for the name of a peer that is not installed.
     """
     chosen: set[str] = set()
     for name in names:

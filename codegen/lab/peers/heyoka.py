@@ -1,8 +1,8 @@
 """heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size.
 
-heyoka compiles the recurrences for the Taylor coefficients as one unrolled function. In its compact mode, it
-compiles them as loops and several functions. The unrolled function is about twice as fast, but its
-compilation can take minutes.
+heyoka compiles the recurrences for the Taylor coefficients. In the default mode, the compiled code is one
+unrolled function. In the compact mode, it consists of several functions with loops. The code of the default
+mode is about twice as fast, but the compilation can take minutes.
 """
 
 from __future__ import annotations
@@ -47,7 +47,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # The overhead of a call is measured by a run over an empty interval. In this run, heyoka computes about
-    # one step, so the measured overhead is too large by the time of a step. This time is small compared with
-    # the time of a run, because short runs are timed over several time spans.
+    # run(0) integrates over an empty interval, and its time is the overhead of a call. heyoka computes about
+    # one step even then, so the overhead is slightly too large.
     return Prepared(run, lambda: run(0))

@@ -55,7 +55,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         solution = compiled(start, first + spans * (last - first))
         solution.ys.block_until_ready()
         if solution.result != diffrax.RESULTS.successful:
-            raise PeerFailed(f"diffrax: the end of the span is not reached within {MOST_STEPS} steps")
+            raise PeerFailed(f"diffrax: the end of the time span is not reached within {MOST_STEPS} steps")
         steps = int(solution.stats["num_steps"])
         return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 

@@ -1,9 +1,9 @@
 """Projection of a state onto its manifold. Users of general ODE solvers often project after each step.
 
-A rotation matrix g is replaced by g (3 - g^T g)/2, which is one Newton step towards the polar factor of g. If
-the distance of g from the orthogonal matrices is e, the new distance is O(e^2). If a rotation group acts on a
-point, for example on a sphere, the point is multiplied by a number. The distance of the point from the origin
-is then the same as in the initial state. Momenta are not changed.
+A rotation matrix g is replaced by g (3 I - g^T g)/2, where I is the identity matrix and g^T is the transpose.
+This is one Newton step towards the orthogonal polar factor of g. If the distance of g from the orthogonal
+matrices is e, the new distance is O(e^2). A point on a sphere around the origin is scaled to its initial
+distance from the origin. Momenta are not changed.
 """
 
 from __future__ import annotations

@@ -53,10 +53,11 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 class Canvas:
     """A picture to which curves are added.
 
-    Curves with equal labels form a series. The legend has one entry for each series. The reader of the page
-    shows or hides all curves of a series together.
+    Curves with equal labels form a series. The legend has one entry for each series. On the page, all curves
+    of a series are shown or hidden together.
 
     - ``drawing``: the figure of Matplotlib.
+    - ``panels``: the Matplotlib axes of the panels.
     - ``names``: the labels of the series.
     - ``texts``: maps the number of a series to the texts of its markers. The browser displays the text of a
       marker if the pointer is on the marker.
@@ -81,10 +82,10 @@ class Canvas:
     ) -> Canvas:
         """Return a canvas with ``count`` panels.
 
-        The panels are in at most ``columns`` columns, with one exception: if ``columns`` is greater than 1,
-        three panels are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of
-        the picture in inches, or 0 for a width that depends on the number of columns. If ``space`` is True,
-        the panels have three axes.
+        ``columns`` is the largest number of panels in a row. If ``columns`` is 2 and there are three panels,
+        all three are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of the
+        picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is
+        True, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -108,7 +109,7 @@ class Canvas:
 
         ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` are the indices
         of the points with markers, and ``texts`` are the texts of these markers. ``looks`` contains keyword
-        arguments of ``plot`` that replace those of the style.
+        arguments of Matplotlib's ``plot``. They override the arguments that follow from ``style``.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -121,7 +122,7 @@ class Canvas:
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
         """Draw the points of a curve as dots.
 
-        Each dot is drawn as a line of length zero with round ends. The SVG element is then smaller than with
+        Each dot is a line of length zero with round ends. Such lines need less SVG code than Matplotlib's
         markers.
         """
         from matplotlib.patches import PathPatch
@@ -132,7 +133,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # The simplification of paths would remove lines of length zero.
+        path.should_simplify = False  # Otherwise Matplotlib would remove the dots, which have length zero.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)
@@ -171,8 +172,8 @@ class Canvas:
 def styles(figure: Figure) -> dict[str, Style]:
     """Return a dictionary that maps the name of each run of a figure to the style of the run.
 
-    If all runs use different methods, the method of a run determines its style. If two runs use the same
-    method, the names of the runs determine all styles.
+    If no two runs use the same method, the style of a run depends on its method. Otherwise, the style of
+    each run depends on its name.
     """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
@@ -189,8 +190,9 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
     """Choose at most ``most`` of ``count`` points, at about equal distances, and return their indices.
 
-    The points are divided into ``most`` groups of about equal size. In each group, ``shift`` (from 0 to 1)
-    selects the place of the chosen point: 0 is the beginning of the group, and 1 is the end.
+    If ``count`` is greater than ``most``, the points are divided into ``most`` groups of about equal size.
+    One point of each group is chosen. ``shift`` is at least 0 and less than 1. If ``shift`` is 0, the first
+    point of each group is chosen. A greater ``shift`` chooses a later point.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -1,7 +1,7 @@
 """Draws the largest deviation of a quantity against time.
 
-A deviation is the difference from the initial value, or from the value along a reference run. At each time t,
-the figure shows the largest deviation up to t. If ``window`` of the figure is not 0, the figure shows the
+A deviation is the difference from the initial value, or from the value along a reference run. If ``window``
+of the figure is 0, the figure shows at each time t the largest deviation up to t. Otherwise, it shows the
 largest deviation in each group of ``window`` consecutive states.
 """
 
@@ -21,7 +21,7 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""A curve gets a new point when the deviation has grown by about this factor since the last point."""
+"""A new point of a curve is drawn when the largest deviation has grown by about this factor."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
@@ -44,10 +44,11 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return an array of times, and an array with the largest deviation up to each time.
+    """Return an array of times, and an array with the largest deviation for each of these times.
 
-    If ``figure.window`` is not 0, the states are divided into groups of ``figure.window`` consecutive states.
-    The arrays then contain the time at the end of each group and the largest deviation in the group.
+    If ``figure.window`` is 0, the second array contains the largest deviation up to each time. Otherwise, the
+    states are divided into groups of ``figure.window`` consecutive states. The first array contains the time
+    at the end of each group, and the second array contains the largest deviation in each group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

@@ -56,9 +56,9 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Make a run. Return the output times and the means.
+    """Make a run. Return an array of output times, and an array of means over the sites.
 
-    Each row of the array of means contains the means of all quantities at one output time.
+    Each row of the second array contains the means of all quantities at one output time.
     """
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
@@ -84,10 +84,10 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
     """Return a function that computes the means of formulas over all sites of a lattice.
 
-    The function has two arguments: the states of all sites and the time. The formulas contain the coordinates
-    of a site. On a periodic lattice, they may also contain the coordinates of its neighbours. Raises
-    :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a formula contains
-    neighbours and the lattice has an open boundary.
+    The function has two arguments: the states of all sites and the time. A formula contains the
+    coordinates of a site. On a periodic lattice, a formula may also contain the coordinates of the neighbours
+    of the site. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice. Raises the
+    same error if the boundary is open and a formula contains coordinates of neighbours.
     """
     import sympy
 
@@ -127,10 +127,9 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity. Raise SceneError if the quantity is a name and not a formula.
+    """Return the quantity if it is a formula. Raise SceneError if it is the name of an invariant.
 
-    Figures of other kinds also accept the name of an invariant of the scene. On a lattice, an invariant does
-    not change in time at any site, so a figure of its mean would show only a horizontal line.
+    The mean of an invariant over all sites is constant in time, so its curve would be a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
@@ -140,11 +139,9 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return the states of the neighbours of all sites of a periodic lattice, as one array for each
-    coordinate.
+    """Return one array for each coordinate: its values at the neighbours of all sites of a periodic lattice.
 
-    The neighbour of a site is at the position ``offset`` relative to the site. In each array, the entry of a
-    site is the value of the coordinate at the neighbour of this site.
+    The entry of a site is the value at the neighbour whose position relative to this site is ``offset``.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -29,7 +29,7 @@ LINE = 14.0
 """The height of a line of the legend, in printer's points."""
 
 FAINT = 0.4
-"""The opacity of the bars that do not move. These bars show the body at a few later times."""
+"""The opacity of the bars that show the body at a few times after the initial time."""
 
 FRAMES = 150
 """The largest number of keyframes of the animation."""
@@ -39,12 +39,12 @@ FRAMES = 150
 class _Sheet:
     """The map from points in space to points of the picture.
 
-    A point is first projected to two coordinates. The first increases to the right, and the second increases
-    upwards. These coordinates are then scaled and shifted.
+    The projection of a point has a horizontal coordinate and a vertical coordinate. The map projects a point,
+    and then scales and shifts both coordinates.
 
     - ``frame``: the matrix of the projection.
-    - ``left``: the least value of the first coordinate, among all drawn points.
-    - ``high``, ``low``: the largest and the least value of the second coordinate, among all drawn points.
+    - ``left``: the least horizontal coordinate of the drawn points.
+    - ``high``, ``low``: the largest and the least vertical coordinate of the drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
     - ``top``: the height of the legend above the drawing in printer's points.
     - ``axis``: the length of the drawn coordinate axes in space.
@@ -141,7 +141,7 @@ def _number(x: float) -> str:
 
 
 def _curve(points: numpy.ndarray) -> str:
-    """Return SVG path data for the line through points. The points are the columns of ``points``."""
+    """Return SVG path data for the polygonal line whose corners are the columns of ``points``."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points.T)
 
 
@@ -151,7 +151,7 @@ def _text(x: float, y: float, words: str, colour: str = "var(--muted)") -> str:
 
 
 def _axes(sheet: _Sheet) -> Iterator[str]:
-    """Yield SVG elements for the coordinate axes: a line from the origin and a name for each axis."""
+    """Yield SVG elements for the coordinate axes. Each axis has a line from the origin and a name."""
     for k, name in enumerate("xyz"):
         ends = sheet.seen(sheet.axis * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
         yield f'<path d="{_curve(ends[:, :2])}" style="fill:none;stroke:var(--rule);stroke-width:0.8"/>'
@@ -200,11 +200,11 @@ def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the SVG transform that maps a horizontal line to the position of a bar at one time.
+    """Return the transform that maps a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
-    begins at the origin. Its length is the largest length that the bar has in the picture at any time. If
-    ``unit`` is ``px``, the result is a CSS transform.
+    begins at the origin and has the largest length of the bar in the picture. If ``unit`` is empty, the
+    result is an SVG transform. If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -220,9 +220,9 @@ def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield an SVG element for each animated bar, at its initial position.
+    """Yield an SVG element for each animated bar. Without animation, the element shows the initial position.
 
-    ``name`` is the beginning of the CSS class of each bar.
+    The CSS class of a bar consists of ``name`` and the number of the bar.
     """
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])

@@ -23,8 +23,8 @@ from codegen.scene.figure import Orders, Run
 def draw(figure: Orders, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    The figure contains a list of orders. For each order p of the list, a dashed line of slope p is drawn
-    below the curve whose slope is closest to p.
+    Both axes are logarithmic. For each order p in ``figure.orders``, a dashed line of slope p is drawn near
+    the curve whose observed order is closest to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -69,9 +69,9 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
-    """Return a pair (step size, error at the end of the time span) for each step size, in decreasing order.
+    """Return pairs (step size, error at the end of the time span). The step sizes decrease.
 
-    A step size is omitted if the run fails with it.
+    If a step fails or the error is not finite, the step size is omitted.
     """
     problem = source.problem_of(run)
     exact = cached_reference(problem).state
@@ -94,7 +94,8 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 def slope(points: Sequence[tuple[float, float]]) -> float:
     """Return the median of the observed orders between consecutive step sizes.
 
-    ``points`` contains pairs (step size, error). The result is 0 if no order can be computed.
+    ``points`` contains pairs (step size, error). An observed order needs two nonzero errors. If there is no
+    observed order, the result is 0.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

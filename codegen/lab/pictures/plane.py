@@ -25,13 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGIN = 0.06
-"""The distance of the curves from the frame of the picture, divided by the larger side of the bounding box of
-the curves.
-"""
+"""The width of the margin around the curves, divided by the larger side of their bounding box."""
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:
-    """Return the picture of a figure. A black dot marks the start of the first curve."""
+    """Return the picture of a figure. A dot in each panel marks the initial point of the first run."""
     runs = figure.runs
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=SIZE[1] if len(runs) != 3 else 2.9)
     curves = {run.name: source.values(run, figure.point) for run in runs}
@@ -58,9 +56,11 @@ def draw(figure: PlaneCurves, source: Source) -> Drawn:
 def _draw_run(
     canvas: Canvas, axes: Axes, figure: PlaneCurves, run: Run, times: numpy.ndarray, points: numpy.ndarray
 ) -> None:
-    """Draw the curve of a run: a dot for each state, or a line with some markers.
+    """Draw the curve of a run.
 
-    ``points`` contains the coordinates of the points in the plane, and ``times`` the time of each point.
+    If ``figure.dots`` is True, each point is drawn as a dot. Otherwise, the curve is a line. ``points``
+    contains the x coordinates and the y coordinates of the points. ``times`` contains the time of each point.
+    If the run has a sweep, ``times`` contains the parameter values instead.
     """
     x, y = points
     style = styles(figure)[run.name]

@@ -20,7 +20,8 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function accepts figures of one class only. This type permits a different class for each function.
+# Each function draws figures of one subclass of Figure. The first argument has the type Any, because the
+# subclass differs from function to function.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
@@ -35,7 +36,10 @@ BUILT_IN: dict[type[Figure], str] = {
     kinds.Scan: "codegen.lab.pictures.scan:draw",
     kinds.Orders: "codegen.lab.pictures.orders:draw",
 }
-"""For each kind of figure, the function that draws figures of this kind, as ``module:function``."""
+"""Maps each kind of figure to the name of the function that draws it.
+
+The name has the form ``module:function``.
+"""
 
 _registered: dict[type[Figure], Draw] = {}
 
@@ -43,7 +47,7 @@ _registered: dict[type[Figure], Draw] = {}
 def register(kind: type[Figure], draw: Draw) -> None:
     """Use the function ``draw`` for all figures of the class ``kind``.
 
-    ``kind`` may be a new class, or a class of :data:`BUILT_IN`.
+    If ``kind`` is a class of :data:`BUILT_IN`, ``draw`` replaces the built-in function.
     """
     _registered[kind] = draw
 
@@ -90,19 +94,17 @@ def command(scene: str, figure: Figure) -> str:
 
 
 def every_figure() -> Iterator[tuple[str, Figure]]:
-    """Yield a pair (name of the scene, figure) for each figure.
-
-    The scenes are those that ``orderconds list scenes`` prints.
-    """
+    """Yield a pair (name of the scene, figure) for each figure of all built-in and registered scenes."""
     for name in scenes.every_name():
         for figure in scenes.load(name).figures:
             yield name, figure
 
 
 def listing() -> list[dict[str, str]]:
-    """Return the scene, the name and the title of every figure.
+    """Return the list of all figures, which ``orderconds list figures`` prints.
 
-    The command ``orderconds list figures`` prints this list.
+    In each entry, ``name`` contains the name of the scene and the name of the figure. ``about`` contains the
+    title of the figure and, if known, the source.
     """
     return [
         {

@@ -1,4 +1,4 @@
-"""Draws the error of a run against the value of a parameter, and marks the value with the least error."""
+"""Draws the errors of runs against a parameter, and marks the least error."""
 
 from __future__ import annotations
 
@@ -18,16 +18,15 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The relative tolerance for the parameter value with the least error.
-
-The absolute tolerance is DIGITS times the distance between the first and the last value of the sweep.
+"""The tolerance for the parameter value with the least error, divided by the length of the parameter
+interval.
 """
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture, with a line and a cross for each run.
+    """Return the picture, with a curve and a cross for each run of the figure.
 
-    The cross marks the parameter value with the least error of the run.
+    The curve shows the error against the parameter, and the cross marks the least error.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -59,7 +58,8 @@ def draw(figure: Scan, source: Source) -> Drawn:
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
     """Return the distance of the final state of a run from the final state of the reference run.
 
-    ``value`` is the value of the parameter for the run. The result is infinity if a step fails.
+    ``value`` is the parameter value of the run. If a step of the run fails, the result is infinity. If the
+    reference run fails, SceneError is raised.
     """
     if figure.reference is None:
         raise ValueError("expected a reference run in a scan, found none")
@@ -80,11 +80,10 @@ def error(source: Source, figure: Scan, run: Run, value: float) -> float:
 def minimum(
     source: Source, figure: Scan, run: Run, values: list[float], sizes: list[float]
 ) -> tuple[float, float]:
-    """Return the parameter value with the least error, and this error.
+    """Return a pair: the parameter value with the least error, and the least error.
 
-    ``values`` are the parameter values of the sweep, and ``sizes`` are the errors of the runs with these
-    values. Let x be the value of the sweep with the least error. Brent's method searches for a value with a
-    smaller error between the neighbours of x in the sweep.
+    ``values`` contains the parameter values of the sweep in order. ``sizes`` contains the error for each of
+    these values. Brent's method then minimises the error near the best value of the sweep.
     """
     from scipy.optimize import minimize_scalar
 
