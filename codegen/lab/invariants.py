@@ -2,7 +2,7 @@
 
 The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors in the value of
 the invariant are proportional to the magnitude. Deviations of an invariant are divided by its absolute value.
-If the terms of the invariant cancel, so that this value is small, deviations are divided by the magnitude.
+If the terms nearly cancel, the absolute value is small, and deviations are divided by the magnitude.
 """
 
 from __future__ import annotations
@@ -21,11 +21,15 @@ from codegen.scene.problem import TIME, Problem
 FUNCTIONS = of_scalars(math)
 
 MANIFOLD = "manifold"
-"""The key of the manifold equations in the dictionaries of conserved quantities."""
+"""The key of the equations of the manifold in the results of :func:`functions` and :func:`expressions`."""
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
-    """Return each conserved quantity as a function of the state and the time t, in double precision."""
+    """Return a function for each conserved quantity, as a dictionary.
+
+    The keys are the names of the quantities. Each function evaluates its quantity in double precision from
+    the state and the time.
+    """
     kept = expressions(scene)
     return {
         name: straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS)
@@ -34,10 +38,10 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 
 
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return each conserved quantity as expressions in the symbols of the state and the time.
+    """Return the expressions of the conserved quantities, in the symbols of the state and the time.
 
     The keys are the names of the invariants and :data:`MANIFOLD`. The expressions with the key MANIFOLD are
-    zero on the manifold. There is no such key if the manifold is a vector space.
+    zero on the manifold. If the manifold is a vector space, the key MANIFOLD is missing.
     """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
@@ -52,8 +56,9 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 
 
 def magnitudes(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return the magnitude (the sum of the absolute values of the terms) of each invariant as an
-    expression.
+    """Return the magnitudes of the invariants as expressions. The keys are the names of the invariants.
+
+    The magnitude of an invariant is the sum of the absolute values of its terms.
     """
     return {name: (magnitude(e),) for name, (e, *_) in expressions(scene).items() if name in scene.invariants}
 
@@ -73,7 +78,7 @@ def magnitude(root: Expr) -> Expr:
 
 
 def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
-    """Return the magnitude of an expression. ``sizes`` contains the magnitudes of its arguments."""
+    """Return the magnitude of the expression ``e``. ``sizes`` contains the magnitudes of ``e.args``."""
     match e.op:
         case "add" | "sub":
             return sizes[0] + sizes[1]
@@ -82,8 +87,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude may be
-            # larger, and the result would then be too small.
+            # The divisor is replaced by its absolute value. The magnitude of the divisor may be larger, and
+            # the quotient would then be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

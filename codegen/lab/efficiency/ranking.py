@@ -41,10 +41,10 @@ def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
-    """Return the least CPU time in seconds in which a candidate reaches ``error``, and the fastest form.
+    """Return a pair (seconds, form) for the form of the equations on which a candidate is fastest.
 
-    ``rows`` contains the runs of the candidate on all forms of the equations. The result is None if the error
-    is not reached on any form.
+    ``seconds`` is the CPU time that the candidate needs on this form to reach ``error``. ``rows`` contains
+    the runs of the candidate on all forms. The result is None if no run reaches the error.
     """
     times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
     return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])
@@ -53,10 +53,10 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The function begins with the most accurate run and continues with coarser runs. It stops at the first run
-    whose error is above ``error``. The time is interpolated between this run and the next more accurate run.
-    The interpolation is linear in the logarithms of time and error. If any more accurate run took less time,
-    the result is the time of that run.
+    The runs are sorted from coarse to fine. Runs after the most accurate run are not used. Let a be the last
+    run whose error is above ``error``, and b the next run. The time is interpolated between a and b, linearly
+    in the logarithms of time and error. If a run after a took less time than the interpolated time, the
+    result is the least time of these runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -99,11 +99,10 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of a candidate that are not surpassed by runs on another form of the
-    equations.
+    """Return the successful runs of a candidate, without the slower forms of the equations.
 
-    A run is omitted if the candidate reaches the same error on another form in less time. With several forms,
-    the runs are sorted by error, from large to small. With one form, their order is not changed.
+    A run is omitted if the candidate reaches the same error on another form in less time. If there are
+    several forms, the result is sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]
@@ -118,10 +117,10 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows of the prevailing form of the equations.
+    """Return the rows of the form of the equations that is fastest most often.
 
-    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The form that wins for the
-    largest number of errors prevails.
+    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The rows of the form that
+    is fastest for the largest number of errors are returned.
     """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)

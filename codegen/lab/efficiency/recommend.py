@@ -41,7 +41,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # The property ``goal`` raises InputError for a wrong goal.
+        assert self.goal  # Creating the goal raises InputError for an invalid error or requirement.
 
     @property
     def goal(self) -> Goal:
@@ -63,7 +63,7 @@ class Recommendation:
     """The result of a search for the fastest recipe.
 
     - ``places``: for each recipe that reaches the error, its fastest run. The fastest recipe comes first.
-    - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
+    - ``best``: None if a recipe reaches the error. Otherwise it is the most accurate run.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search.
@@ -126,9 +126,9 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run, or None for a run with step-size control.
+    """Return the step size of a run, or None.
 
-    If every run of a recipe failed, the result is also None.
+    The result is None in two cases: the run has step-size control, or every run of the recipe failed.
     """
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
@@ -137,7 +137,7 @@ def step_of(task: Task, place: Result) -> float | None:
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
     """Search for the fastest recipe for a request, and return the recommendation.
 
-    InputError is raised if the scene or the request is wrong.
+    InputError is raised if the scene is unknown or if a value in the request is invalid.
     """
     search = Search(request.task, (request.goal,), progress)
     search.run()

@@ -1,6 +1,6 @@
-"""The columns and the rows of the table of recommended methods in the report.
+"""The requirements and the errors in the table of recommended methods.
 
-Each column is for a requirement on the method, and each row is for an error.
+The table is printed in the report. It has one column for each requirement and one row for each error.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ STACK = 4096
 class Requirement:
     """A requirement on a method. The table of recommended methods has one column for each requirement.
 
-    ``needs`` are the names of :data:`codegen.lab.efficiency.goal.NEEDS` that the requirement consists of.
+    ``needs`` contains names from :data:`codegen.lab.efficiency.goal.NEEDS`. A method must meet all of them.
     ``stack`` is the largest stack memory of a call in bytes, or None for no limit.
     """
 

@@ -3,17 +3,15 @@
 A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound of
 the error together with requirements, for example that the method is symplectic. The search has three stages.
 
-First, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
-(:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without further steps if one step takes too
-long. It is also dropped if even methods of slightly higher order are predicted not to reach the error in the
-available time.
+In the first stage, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
+(:mod:`codegen.lab.efficiency.prediction`). The interpreter stops early if the recipe is certainly too slow.
 
-Second, recipes are emitted as C and measured. A recipe comes early if its predicted time is far below the
-best measured time. For each kind of recipe, the ratio of measured to predicted times is used to correct later
-predictions. A recipe is dropped if its corrected prediction is far above the best measured time.
+In the second stage, recipes are emitted as C and measured. A recipe is measured early if its predicted time
+is far below the best measured time. The measured times are used to correct the predicted times of other
+recipes. If the corrected time of a recipe is far above the best measured time, the recipe is not measured.
 
-Third, the fastest recipes are timed again with more repetitions. All goals share the predictions, the
-compiled modules and the runs.
+In the third stage, the fastest recipes are timed again with more repetitions. All goals share the
+predictions, the compiled modules and the runs.
 """
 
 from __future__ import annotations
@@ -44,20 +42,24 @@ time.
 """
 
 UNSEEN = 4.0
-"""The factor that replaces :data:`SAFETY` until a recipe of the same kind has been measured."""
+"""The safety factor for a kind of recipe that has not been measured yet.
+
+For the other kinds, the safety factor is :data:`SAFETY`.
+"""
 
 LEADERS, CLOSE = 4, 1.4
-"""At most LEADERS of the fastest recipes are timed again.
+"""Limits that decide which recipes are timed again.
 
-The CPU time of such a recipe, divided by the best CPU time, must be at most CLOSE.
+A recipe is timed again if it is one of the LEADERS fastest recipes, and if its CPU time is at most CLOSE
+times the best CPU time.
 """
 
 CONTROLLED = 100.0
 """A number that corrects predicted times of recipes with step-size control.
 
-If a time was predicted from runs with equal steps that had large errors, it may be much too long. On stiff
-scenes, the CPU time with equal steps can be some hundred times the CPU time with step-size control. Therefore
-such a prediction is divided by CONTROLLED, until a recipe of the same kind has been measured.
+A time that was predicted from inaccurate runs with equal steps may be much too long. On stiff scenes, the CPU
+time with equal steps can be some hundred times the CPU time with step-size control. Therefore the predicted
+time is divided by CONTROLLED, until a recipe of the same kind has been measured.
 """
 
 ROUND = 6
@@ -76,17 +78,18 @@ The remaining budget is the part that is left when the reference solution has be
 """
 
 UNREACHED = 1e-3
-"""The gain that is assumed for a recipe whose predicted time is not below the best measured time.
+"""The gain of a recipe whose estimated time is not below the best measured time.
 
-Recipes with large gains are measured first. UNREACHED is small, so such a recipe is measured late.
+This gain is small, because recipes with large gains are measured first.
 """
 
 LONG_STEPS = 20_000
 """The number of steps of the long run, which tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""The largest number of times that the step size is halved because a long run does not preserve a
-quantity.
+"""The largest number of times that a step size is halved.
+
+The step size is halved if a conserved quantity is not preserved in a long run.
 """
 
 Kind = tuple[str, bool, bool]
@@ -107,11 +110,11 @@ Recipes that differ only in step-size control have the same key.
 class Search:
     """A search for the fastest recipes for several goals.
 
-    :meth:`run` makes the search, and :meth:`leaders` returns the ranking for a goal.
+    :meth:`run` predicts and measures recipes. After that, :meth:`leaders` returns the ranking for a goal.
 
     - ``predictions``: the predicted errors and times of recipes.
     - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each error.
-    - ``results``: for each error, the measured result of each recipe.
+    - ``results``: for each error, a dictionary of the measured recipes and their results.
     - ``lost``: for each goal, the recipes that do not preserve a conserved quantity in a long run.
     - ``complete``: False if the time budget ended the search.
     """
@@ -155,10 +158,10 @@ class Search:
         self.race()
 
     def predict(self) -> None:
-        """Predict the times of recipes until the time budget for predictions is used (:data:`PREDICTING`).
+        """Predict the times of recipes. Stop when the time budget for predictions is used.
 
-        Families of methods and forms of the equations take turns (:class:`Jobs`). Slow families and slow
-        forms have fewer turns.
+        The constant :data:`PREDICTING` defines this time budget. The class :class:`Jobs` decides in which
+        order the recipes are predicted.
         """
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
@@ -179,8 +182,9 @@ class Search:
     def expected(self, recipe: Recipe, error: float) -> float:
         """Return an optimistic estimate of the CPU time in seconds that a recipe needs to reach an error.
 
-        The estimate is the predicted time, multiplied by the ratio of measured to predicted times for this
-        kind of recipe, and divided by a safety factor. If there is no prediction, the result is infinity.
+        The predicted time is corrected by the ratio of measured to predicted times for this kind of recipe.
+        To make the estimate optimistic, the corrected time is divided by a safety factor. If there is no
+        prediction, the result is infinity.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -193,7 +197,7 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the estimate of :meth:`expected`. If it is probably too long, divide it by CONTROLLED.
+        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` if it may be much too long.
 
         The estimate is divided if three conditions hold: the recipe has step-size control, the prediction is
         based on equal steps with large errors, and no recipe of the same kind has been measured.
@@ -205,8 +209,8 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        For a recipe with step-size control, there may be two predictions. The prediction with step-size
-        control is then preferred to the prediction with equal steps.
+        For a recipe with step-size control, the prediction from runs with step-size control is returned. If
+        there is none, the prediction from runs with equal steps is returned.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -231,8 +235,8 @@ class Search:
     def race(self) -> None:
         """Emit and measure recipes. The recipes with the largest gains (:meth:`_next`) come first.
 
-        The race ends when no remaining recipe can be the fastest. If the time budget is used up before, the
-        race also ends, and ``complete`` is set to False.
+        The function returns when no remaining recipe can be the fastest, or when the time budget is used up.
+        In the second case, ``complete`` is set to False.
         """
         while True:
             self._correct()
@@ -254,13 +258,13 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return at most :data:`ROUND` recipes to emit next: those with the largest gains.
+        """Return the recipes to emit next. There are at most :data:`ROUND` of them.
 
-        The gain of a recipe is the sum of its gains for all goals. The gain for a goal is log(a/b), where b
-        is the estimated time of the recipe (:meth:`expected`) and a is the best measured time. If no measured
-        recipe reaches the goal, a is the safety factor times the least estimated time of the remaining
-        recipes. If no recipe of a kind has been measured, the result contains at most one recipe of
-        this kind.
+        The recipes with the largest gains are returned. For one goal, the gain is log(a/b). Here a is the
+        best measured time, and b is the estimated time of the recipe (:meth:`expected`). If no measured
+        recipe reaches the goal, a is the safety factor times the least estimated time. The gains for all
+        goals are added. Until a recipe of a kind has been measured, at most one recipe of this kind is
+        returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -301,9 +305,9 @@ class Search:
     def _reached(self, goal: Goal) -> Iterable[Result]:
         """Return the fastest run of each recipe that reaches a goal.
 
-        A recipe reaches a goal if it satisfies the requirements and if a run reaches the required error. A
-        run that was measured for a smaller error also counts. Recipes are omitted if a long run showed that
-        they do not preserve a conserved quantity.
+        A recipe reaches a goal if it satisfies the requirements and if a run reaches the required error. Runs
+        that were measured for smaller errors are included. A recipe is omitted if a conserved quantity was
+        not preserved in a long run.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -320,8 +324,9 @@ class Search:
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Measure the CPU time of a recipe for each error for which it may be the fastest, and store the
-        results.
+        """Measure the CPU time of a recipe for each error of the goals, and store the results.
+
+        An error is omitted if the recipe cannot be the fastest for this error.
         """
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
@@ -335,9 +340,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is not known. The larger of two times is
-                # assumed: the predicted time ``known``, or the best measured time ``worst`` multiplied by
-                # twice the safety factor.
+                # If the recipe does not reach the error, its time is not known. A long time is assumed: at
+                # least the predicted time, and at least the time ``worst`` times twice the safety factor.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -358,11 +362,10 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Return the recipes that reach a goal, from fast to slow, and the labels of excluded recipes.
+        """Return the results for a goal, from fast to slow, and the labels of excluded recipes.
 
-        Before the ranking, the fastest recipes are timed again. A recipe is excluded if it does not preserve
-        a conserved quantity in a long run. If all measured recipes are excluded, further recipes are
-        measured.
+        A recipe is excluded if it does not preserve a conserved quantity in a long run. If all measured
+        recipes are excluded, further recipes are measured.
         """
         while True:
             ranked, raced = self._ranked(goal), len(self.raced)
@@ -374,9 +377,10 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        Before the ranking, the fastest recipes are timed again. If the goal concerns long times, the two
-        fastest recipes are tested in a long run. If a recipe does not preserve a conserved quantity, shorter
-        steps are tried. If this does not help, the recipe is excluded.
+        The fastest recipes are timed again, and the results are sorted. If the goal concerns long times, a
+        long run then tests whether the two fastest recipes preserve the conserved quantities. If a recipe
+        fails the test, its step size is halved, at most :data:`SHORTER` times. A recipe that still fails is
+        excluded.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -395,8 +399,8 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` recipes passed the test and stay first. With shorter steps, this recipe
-                # needs more time, so the remaining recipes are sorted again.
+                # The first ``kept`` results passed the test. The result with shorter steps takes more time,
+                # so it is sorted into the results that are not tested yet.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

@@ -37,8 +37,8 @@ class Task:
     - ``budget``: the longest time of the search in seconds.
     - ``tableaux``: names of tableaux. If the tuple is not empty, only methods with these tableaux are
       searched.
-    - ``methods``: pairs (label of a method, True if the method has step-size control). If the tuple is empty,
-      the methods of the library are searched.
+    - ``methods``: pairs (label, adaptive) of the methods to search. ``adaptive`` is True for step-size
+      control. If the tuple is empty, the methods of the library are searched.
     """
 
     scene: str
@@ -106,9 +106,9 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
     """Return the predicted errors and times of a recipe. A worker process executes this function.
 
     ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
-    recipe. The interpreter first makes runs with equal steps. If these runs have large errors and the recipe
-    can run with step-size control, the interpreter also makes runs with step-size control. The result is None
-    if there is no bar.
+    recipe. The interpreter makes runs with equal steps. If these runs have large errors and the recipe can
+    run with step-size control, the interpreter makes more runs with step-size control. If ``job`` contains no
+    bars, no prediction is needed, and the result is None.
     """
     recipe, bars = job
     if not bars:
@@ -123,7 +123,7 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
 
 
 def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
-    """Emit and compile the module of a recipe. Return the module, or the reason why this is not possible.
+    """Emit and compile the module of a recipe. Return the module, or the reason why it cannot be built.
 
     A worker process executes this function.
     """

@@ -1,8 +1,8 @@
 """Measures the points of work-precision diagrams, which show error against CPU time.
 
-A :class:`Candidate` is an emitted method or another integrator (a peer). It is run with a sequence of step
-sizes or tolerances. Each run produces a :class:`Row`, which contains the CPU time and the error at the end of
-the time span, in the norm of the scene. If the run fails, the row contains the reason.
+A :class:`Candidate` is an emitted method or another integrator (a peer). Each candidate is run with several
+step sizes or tolerances. Each run produces a :class:`Row`, which contains the CPU time and the error at the
+end of the time span, in the norm of the scene. If the run fails, the row contains the reason.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of repeated measurements of two runs whose times are implausible.
+"""The largest number of times that a run is measured again because its time is implausible.
 
-The times are implausible if the run with fewer steps takes longer than the run with more steps.
+The times of two runs are implausible if the run with fewer steps takes longer than the run with more steps.
 """
 
 NEAR_ROUNDING = 1e-9
-"""Rounding errors are considered only if the error of a run is at most NEAR_ROUNDING.
+"""The largest error of a run that may be caused by rounding, relative to the size of the state.
 
-The error is relative to the size of the state. A larger error is not attributed to rounding.
+A larger error is not attributed to rounding.
 """
 
 
@@ -41,13 +41,13 @@ class Row:
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
-    - ``seconds``: the least CPU time of several batches of runs.
-    - ``spread``: the relative spread of these times. Three quarters of the batches take at most
+    - ``seconds``: the CPU time. It is measured in several batches of runs, and the fastest batch counts.
+    - ``spread``: the relative spread of the CPU time. In three quarters of the batches, the time is at most
       (1 + ``spread``) times ``seconds``.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
     - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
-    - ``failure``: the reason if the run failed, or ''.
+    - ``failure``: the reason why the run failed, or '' for a successful run.
     - ``form``: the name of the form of the equations, or '' if the scene has only one form.
     """
 
@@ -77,9 +77,9 @@ class Row:
 class Candidate(Protocol):
     """The interface of a method or peer (another integrator) to measure.
 
-    ``label`` and ``target`` identify the candidate in tables. ``key`` is a text for the cache. It changes if
-    the code of the candidate changes. ``form`` is the name of the form of the equations, or '' if the scene
-    has only one form.
+    ``label`` and ``target`` identify the candidate in tables. ``key`` identifies the code of the candidate in
+    the cache: if the code changes, ``key`` changes. ``form`` is the name of the form of the equations, or ''
+    if the scene has only one form.
     """
 
     label: str
@@ -113,10 +113,10 @@ def measure_rows(
     cache: MeasurementCache,
     done: Callable[[Row], object],
 ) -> tuple[Row, ...]:
-    """Make the runs of a candidate, and return one row for each run. ``done`` is called with each row.
+    """Make the runs of a candidate, and return one row for each run.
 
-    Rows that are stored in ``cache`` are not measured again. If the candidate cannot run on the scene, the
-    last row contains the reason.
+    ``done`` is called with the row of each run. Rows that are stored in ``cache`` are not measured again.
+    If the candidate cannot run on the scene, a last row is added, which contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -151,8 +151,8 @@ def measure_rows(
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
     """Repeat measurements with implausible times, and return all rows.
 
-    The times of two consecutive runs are implausible if the run with fewer steps took longer. Both runs are
-    then measured again, at most :data:`AGAIN` times, and the least times are used. ``fresh`` contains the
+    Two consecutive runs have implausible times if the run with fewer steps took longer. Both runs are then
+    measured again, at most :data:`AGAIN` times. For each run, the least time counts. ``fresh`` contains the
     controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
@@ -178,7 +178,7 @@ def _inverted(a: Row, b: Row) -> bool:
 
 @dataclass
 class Refused:
-    """A method that cannot be emitted for the scene. Its only row contains the reason."""
+    """A method that cannot be emitted for the scene. ``reason`` says why."""
 
     label: str
     target: str
@@ -187,11 +187,11 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield 0.0 as a placeholder. No run is made, and the only row contains the reason."""
+        """Yield only the number 0.0, so that there is one row. No run is made."""
         yield 0.0
 
     def prepare(self) -> None:
-        """Always raise InputError, with the reason why the method cannot be emitted."""
+        """Always raise InputError. The message is the reason why the method cannot be emitted."""
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
@@ -223,8 +223,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Of the last three runs in ``rows``, let e be the error of the first. The result is True if e is at most
-    :data:`NEAR_ROUNDING` times the size of the state, and if the errors of the last two runs are above e/3.
+    The last three runs in ``rows`` are compared. Let e1, e2 and e3 be their errors. Two conditions must hold:
+    e1 is at most :data:`NEAR_ROUNDING` times the size of the state, and both e2 and e3 are above e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

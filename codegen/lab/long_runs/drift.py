@@ -1,22 +1,23 @@
-"""Decides whether a conserved quantity drifts in a long run, from the deviations of the quantity.
+"""Decides whether a conserved quantity drifts in a long run.
 
-A record contains the deviations of the quantity along one trajectory. The deviations are correlated, so the
-confidence interval of a least-squares line would be far too narrow. Therefore the record is cut into blocks
-that are much longer than its oscillations. The means over the blocks are nearly independent. A line is fitted
-to these means, and the confidence interval of its slope follows from Student's distribution (method of batch
-means). A slope can have three causes:
+A record contains the deviations of the quantity along one trajectory. The usual confidence interval of a
+fitted line assumes independent deviations. Consecutive deviations are correlated, so this interval would be
+far too narrow. Therefore the record is cut into long blocks. The means over the blocks are nearly
+independent. A line is fitted to these means, and the confidence interval of its slope follows from Student's
+distribution (method of batch means).
 
-- A slow modulation of the deviation. To exclude this cause, the record is divided into five consecutive
-  sections. A slope counts as a drift only if the means over the sections are monotone. A sinusoid passes this
-  test only if its period is longer than 1.2 times the record.
-- A random walk. To exclude this cause, two tests compare the record with random walks. A slope counts as a
-  drift only if one of the tests rejects a random walk. The constants :data:`STRAIGHT`
-  and :data:`STEADY` are the limits of the tests. The first test is due to J. D. Sargan and A. Bhargava,
-  Econometrica 51 (1983) 153.
-- A systematic growth of the deviation. Only this cause is called a drift.
+A slope different from zero can have three causes:
 
-At some time the deviation may stop growing, for example because the method reaches a fixed point. The line is
-then fitted only to the part of the record before this time.
+- A slow modulation of the deviation. To exclude a modulation, the record is divided into five consecutive
+  sections. The slope counts as a drift only if the means over the sections are monotone. The means of a
+  sinusoid are monotone only if its period is longer than 1.2 times the record.
+- A random walk. Two tests compare the record with random walks (:data:`STRAIGHT`, :data:`STEADY`). The slope
+  counts as a drift only if one of the tests rejects a random walk. The test with STRAIGHT is due to
+  J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+- A systematic growth of the deviation. Only this growth is called a drift.
+
+A deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted to
+the part of the record before this time.
 """
 
 from __future__ import annotations
@@ -34,8 +35,9 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The record is divided into PARTS consecutive sections. A slope counts as a drift only if the means over
-the sections are monotone.
+"""The number of consecutive sections of a record.
+
+The slope of a record counts as a drift only if the means over the sections are monotone.
 """
 
 LOST = 1.0
@@ -51,42 +53,41 @@ The deviation may be bounded if p is below BOUNDED. It may be a random walk if p
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""Limits for a deviation that counts as bounded.
+"""Limits for the growth factor of a deviation that counts as bounded.
 
-The largest deviation of the whole record must be at most LATE times the largest deviation of its first half.
-If other tests show that the deviation is not a random walk, the factor is LATE_CONFINED.
+The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
+The usual limit is LATE. If the scatter (:data:`CONFINED`) excludes a random walk, the limit is LATE_CONFINED.
 """
 
 LEVEL, STAYS = 0.9, 0.5
 """Limits for a deviation that saturates, that is, grows and then stays large.
 
-Let d be the largest deviation of the whole record. The deviation saturates if two conditions hold. It reaches
-LEVEL times d in the first half of the record. At all later times it is at least STAYS times d.
+Let d be the largest deviation of the record. The deviation saturates if two conditions hold: it reaches
+LEVEL times d in the first half of the record, and from then on it is at least STAYS times d.
 """
 
 WALKING = (0.5, 1.6)
 """The least and the largest variance ratio of a record that may be a random walk.
 
-The record is divided into blocks, and a line is fitted to the means over the blocks. The residual of a block
-is the difference between its mean and the line. Let V_k be the mean square of the difference between the
-residuals of two blocks at a distance of k blocks. The variance ratio is V_k/(k V_1). It is about 1 for a
-random walk, and about 1/k for independent deviations.
+The record is divided into blocks, and a line is fitted to the means over the blocks. Let r_i be the residual
+of block i in this fit, and V_k the mean of (r_(i+k) - r_i)^2 over all i. The variance ratio is V_k/(k V_1),
+where k is a number of blocks. It is about 1 for a random walk, and about 1/k for independent deviations.
 """
 
 CONFINED = 0.04
-"""If the scatter of the block means is less than CONFINED, the deviation does not count as a random walk.
+"""A limit for the scatter of a record. Below this limit, the deviation does not count as a random walk.
 
 The record of the deviation is divided into n blocks. Let V be the variance of the means over the blocks, and
-D the variance of the increments between consecutive means. The scatter is V/(n D). It is less than CONFINED
-for only 3 % of all random walks.
+D the variance of the differences between consecutive means. The scatter is V/(n D). Only 3 % of all random
+walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
-"""If the scatter about a line is less than STRAIGHT, the slope is not attributed to a random walk.
+"""A limit for the scatter of a record about a line. Below it, the slope is not attributed to a random walk.
 
 The record is divided into n blocks, and a line is fitted to the means over the blocks. Let V be the variance
-of the differences from this line, and D the variance of the increments between consecutive means. The scatter
-is V/(n D). It is less than STRAIGHT for only 1 % of all random walks.
+of the residuals of this fit, and D the variance of the differences between consecutive means. The scatter is
+V/(n D). Only 1 % of all random walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
@@ -103,24 +104,24 @@ TINY = 1e-24
 FINE, NEAR, FAR = 100, 5, 20
 """The record is divided into FINE blocks, and two variance ratios are computed (:data:`WALKING`).
 
-The first ratio compares blocks at a distance of NEAR blocks. The second compares blocks at a distance of FAR
-blocks.
+The first variance ratio compares blocks at a distance of NEAR blocks. The second variance ratio compares
+blocks at a distance of FAR blocks.
 """
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The drift of a conserved quantity: the numbers computed from its deviations, and a verdict.
+    """The results of the tests whether a conserved quantity drifts. The verdict is :attr:`law`.
 
     - ``slope``: the slope of the fitted line per unit of time. It is NaN if too few values are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
     - ``largest``: the largest absolute deviation of the record.
-    - ``exponent``: the largest deviation up to the time t grows like t^``exponent``. The exponent is about 0
-      for a bounded deviation, 1/2 for a random walk and 1 for a drift.
+    - ``exponent``: the exponent p of growth. The largest deviation up to the time t grows like t^p. The
+      exponent is about 0 for a bounded deviation, 1/2 for a random walk and 1 for a drift.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
-    - ``later``: the largest deviation divided by the largest deviation in the first half of the record.
-    - ``ratios``: the variance ratios (:data:`WALKING`) for blocks at the distances NEAR and FAR.
+    - ``later``: the growth factor (:data:`LATE`) of the deviation.
+    - ``ratios``: two variance ratios (:data:`WALKING`). They are about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
     - ``unlike_walk``: True if the test with :data:`STRAIGHT` or the test with :data:`STEADY` rejects a
       random walk.
@@ -152,8 +153,7 @@ class Drift:
         - ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
-        - ``drift``: the confidence interval of the slope does not contain zero, the slope persists, and
-          a random walk is rejected (``unlike_walk``).
+        - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
         - ``bounded``: there is no drift, and the deviation does not grow.
         - ``random walk``: there is no drift, and the deviation grows like a random walk.
         - ``too short to tell``: the run is too short for a verdict.
@@ -172,8 +172,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If a deviation grows but its sign alternates, its means over blocks do not grow, and no drift is
-        # found. Therefore ``steady`` also requires a small exponent of growth.
+        # If a deviation grows with alternating sign, the means over blocks do not grow, and ``is_drift`` is
+        # False. The exponent of growth is then large. Therefore ``steady`` requires a small exponent.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -182,9 +182,9 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if :attr:`law` is ``drift``, ``random walk`` or ``lost``, so that the deviation grows.
+        """True if the verdict :attr:`law` is ``drift``, ``random walk`` or ``lost``.
 
-        It is None if the run is too short for a verdict, and otherwise False.
+        The value is None if the run is too short for a verdict. For the other verdicts, it is False.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
@@ -207,14 +207,18 @@ def fit(
     rounding: float = 0.0,
     lows: Sequence[float] | None = None,
 ) -> Drift:
-    """Return the drift of a quantity, computed from its relative deviations at the times of samples.
+    """Return the drift of a quantity, computed from its relative deviations.
 
-    ``times`` are measured from the start of the run. They decrease in a backward run. ``peaks`` and ``lows``
-    are the largest and the smallest absolute deviation in the interval that ends at each sample. By default
-    they are the absolute values of ``deviations``. ``rounding`` is the largest deviation that rounding errors
-    can cause. If a value is not finite, the slope is fitted to the values before it. The attribute
-    ``largest`` of the result is then infinite. If the deviation saturates after at least :data:`FEWEST`
-    samples, the slope is fitted to the samples before the saturation.
+    - ``times``: the times of the samples, measured from the start of the run. They decrease in a backward
+      run.
+    - ``deviations``: the relative deviation at each sample.
+    - ``peaks``, ``lows``: the largest and the smallest absolute deviation in the interval that ends at each
+      sample. The default is the absolute value of the deviation at the sample.
+    - ``rounding``: the largest deviation that rounding errors can cause.
+
+    A line is fitted to the samples. If a value is not finite, only the samples before it are used, and the
+    attribute ``largest`` of the result is infinite. If the deviation saturates (:data:`STAYS`) after at least
+    :data:`FEWEST` samples, only the samples before the saturation are used.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -231,7 +235,7 @@ def fit(
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
     signs = numpy.sign(y)
-    # If the deviation changes its sign between two samples, its smallest absolute value is zero.
+    # If the deviation has changed its sign since the previous sample, it was zero in between.
     least[1:][signs[1:] * signs[:-1] < 0] = 0.0
     level = None if count < len(t) else saturation(size, least)
     until = None if level is None else float(t[level])
@@ -286,8 +290,8 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     """Return the scatter of block means about a fitted polynomial of the given degree.
 
     The record is divided into n blocks, and the polynomial is fitted to the means over the blocks. Let V be
-    the variance of the differences from the polynomial, and D the variance of the increments between
-    consecutive means. The scatter is V/(n D). For the degree 0, :data:`CONFINED` is the limit of the scatter.
+    the variance of the residuals of this fit, and D the variance of the differences between consecutive
+    means. The scatter is V/(n D). For the degree 0, :data:`CONFINED` is the limit of the scatter.
     For the degree 1, :data:`STRAIGHT` is the limit.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
@@ -305,11 +309,7 @@ def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return two variance ratios, as defined at :data:`WALKING`.
-
-    The first ratio compares blocks at a distance of NEAR blocks. The second compares blocks at a distance of
-    FAR blocks.
-    """
+    """Return two variance ratios of a record. They are defined at :data:`WALKING` and :data:`FINE`."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 
@@ -324,11 +324,11 @@ def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Divide times and values into blocks, and return the weighted mean time and the weighted mean value of
-    each block.
+    """Return the weighted mean time and the weighted mean value of each block.
 
-    The weights decrease towards both ends of a block (Hann's window). Short oscillations therefore nearly
-    cancel in the mean.
+    The times ``t`` and the values ``y`` are divided into ``blocks`` consecutive blocks. The weights
+    decrease towards both ends of a block (Hann's window). Short oscillations therefore nearly cancel in the
+    mean.
     """
     rows = []
     for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):

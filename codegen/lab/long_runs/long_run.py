@@ -1,11 +1,11 @@
-"""Long runs of emitted code: conserved quantities, symplecticity, reversibility, and growth of rounding
-errors.
+"""Measures conserved quantities, symplecticity, reversibility and rounding errors in runs of many steps.
 
-The conserved quantities are the invariants that the scene declares, such as the energy. The expressions that
-are zero on the manifold of the scene count as conserved quantities, too. All these quantities are evaluated
-after every step. Deviations are divided by the size of the quantity. Reversibility is tested by a run to the
-end with the step size h, followed by a run back with -h. A symmetric method then returns to the initial
-state, apart from rounding errors.
+The scene declares invariants, such as the energy. The expressions that are zero on the manifold of the scene
+are also conserved. All conserved quantities are evaluated after every step. The deviation of a quantity is
+divided by the size of the quantity.
+
+To test reversibility, the method runs to the end with the step size h, and back with the step size -h. A
+symmetric method then returns to the initial state, apart from rounding errors.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ Several such runs are made, from different initial states.
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""A factor in the limit below which deviations are attributed to rounding errors.
+"""A factor in a limit for the deviations of quantities that the method conserves exactly.
 
-The limit is used for quantities that the method conserves exactly. After n steps, it is UNSTABLE * n *
-EPSILON times the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
+After n steps, the limit is UNSTABLE * n * EPSILON times the magnitude of the quantity. EPSILON is the machine
+epsilon of doubles. Deviations up to this limit are attributed to rounding errors.
 """
 
 
@@ -72,8 +72,8 @@ class LongRun:
       hundredth of ``steps``. In the second pair, n is the number of all steps of the run.
     - ``symplectic``: the largest symplectic defect of single steps from several states, or None if it was not
       measured.
-    - ``failure``: the message of a step that failed, or ''. The results then describe the steps before the
-      failure.
+    - ``failure``: the message of a step that failed, or ''. If a step failed, the results describe the steps
+      before the failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
     - ``unmeasured``: for a Hamiltonian scene, the reason why ``symplectic`` could not be measured, or ''.
     """
@@ -115,7 +115,7 @@ def long_run(
 ) -> LongRun:
     """Run emitted code from the initial state of the scene over many steps.
 
-    If ``back`` is True, the method also integrates back to the initial time, which doubles the CPU time. If
+    If ``back`` is True, the method then integrates back from the final time to the initial time. If
     ``rounding`` is True, the growth of rounding errors is measured with and without compensated summation
     (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
@@ -160,11 +160,11 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return two pairs (n, distance).
+    """Test the reversibility of a method. Return two pairs (n, distance).
 
     The method makes n steps forward and n steps back. The number ``distance`` is the distance between the
-    final and the initial state. In the first pair, n is about a hundredth of the number of steps of the run.
-    In the second pair, n is the number of all steps of the run.
+    final and the initial state. In the first pair, n is about a hundredth of the steps of the run. In the
+    second pair, n is the number of all steps of the run.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
@@ -183,8 +183,8 @@ def _kept(
     """Return the deviations and the drift of each conserved quantity.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If a quantity
-    is not in ``conserved`` but its change is very small, its deviations can also be rounding errors.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If the change
+    of a quantity is very small, its deviations may be rounding errors.
 
     If a deviation stops growing before there are enough samples for a fit (:data:`FEWEST`), the function
     calls ``early(n)``, which records the first n steps with more samples.
@@ -215,10 +215,11 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity before its deviation saturates, that is, stops growing.
+    """Return the drift of a quantity, fitted to the samples before its deviation stops growing.
 
-    ``whole`` is the drift computed from the whole record. If the record has too few samples before the
-    saturation, the function calls ``early(n)``, which records the first n steps again with more samples.
+    ``whole`` is the result of :func:`fit` for the complete run. If there are enough samples before the
+    deviation stops growing, ``whole`` is returned. Otherwise the function calls ``early(n)``, which makes the
+    first n steps again and records more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0
