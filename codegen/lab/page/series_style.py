@@ -35,6 +35,7 @@ SOLID: Dash = ()
 DASHED: Dash = (4, 2)
 DOTTED: Dash = (1, 1.6)
 DASH_DOTTED: Dash = (6, 2, 1, 2)
+DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 Place = tuple[int, int]
 """A pair (index of a colour, index of a marker)."""
@@ -53,6 +54,15 @@ class Style:
     marker: str
     dash: Dash = SOLID
     hollow: bool = False
+
+
+def numbered(place: int) -> Style:
+    """Return the style of a curve of a figure. The curves are numbered from 0.
+
+    Colours, markers and dashes are repeated after COLOURS, len(MARKERS) and len(DASHES) curves.
+    """
+    colour = f"var(--series-{place % COLOURS + 1})"
+    return Style(colour, MARKERS[place % len(MARKERS)], DASHES[place % len(DASHES)])
 
 
 class Styles:

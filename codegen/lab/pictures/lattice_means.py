@@ -11,7 +11,7 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import evaluate
 from codegen.lab.long_runs.trajectory import FUNCTIONS
 from codegen.lab.page.axes import label_axes
-from codegen.lab.page.series_style import DASH_DOTTED, DASHED, DOTTED, MARKERS, SOLID, Style
+from codegen.lab.page.series_style import numbered
 from codegen.lab.pictures.canvas import WIDE, Canvas, marks
 from codegen.lab.pictures.picture import Drawn
 from codegen.lab.pictures.source import Source
@@ -21,8 +21,6 @@ from codegen.scene.figure import LatticeMeans, Quantity, Run
 from codegen.scene.formulas import Reader
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Offset, neighbour, offset_of
-
-DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 
 def draw(figure: LatticeMeans, source: Source) -> Drawn:
@@ -40,7 +38,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
         for j, (name, row) in enumerate(zip(figure.quantities, rows.T, strict=True)):
             place = k * len(figure.quantities) + j
             label = ", ".join(([run.name] if len(figure.runs) > 1 else []) + [name])
-            style = Style(f"var(--series-{place + 1})", MARKERS[place], DASHES[place % len(DASHES)])
+            style = numbered(place)
             chosen = marks(len(times), (place + 0.5) / total)
             texts = [f"{label}: {row[i]:.6g} at t = {times[i]:.4g}" for i in chosen]
             canvas.line(axes, (times, row), label, style, chosen, texts)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy
 
 from codegen.lab.page.axes import label_axes
-from codegen.lab.page.series_style import DASH_DOTTED, DASHED, DOTTED, MARKERS, SOLID, Style
+from codegen.lab.page.series_style import numbered
 from codegen.lab.page.svg import INK
 from codegen.lab.pictures.canvas import REFERENCE_LOOKS, REFERENCE_STYLE, WIDE, Canvas, failures, marks
 from codegen.lab.pictures.picture import Drawn
@@ -22,8 +22,6 @@ from codegen.scene.figure import Run, TimeSeries
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 ONE, SEVERAL = 3.4, 1.7
 """Height in inches of a single panel, and of each of several panels."""
@@ -69,7 +67,7 @@ def _draw_rows(
     """
     numbers = {}
     for k, (label, row) in enumerate(zip(figure.quantities, rows, strict=True)):
-        style = Style(f"var(--series-{k + 1})", MARKERS[k], DASHES[k % len(DASHES)])
+        style = numbered(k)
         x, y = _window(figure, times, row)
         chosen = marks(len(x), (k + 0.5) / len(rows))
         texts = [f"{run.name}, {label}: {y[i]:.6g} at t = {x[i]:.4g}" for i in chosen]

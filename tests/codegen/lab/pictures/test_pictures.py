@@ -137,6 +137,12 @@ def test_a_time_series_subtracts_the_reference(source):
     assert (low, high) == (gap.min(), gap.max())
 
 
+def test_a_time_series_may_have_more_quantities_than_colours_and_markers(source):
+    quantities = {f"q{k}": k * M[k % 3] for k in range(1, 15)}
+    figure = TimeSeries(name="t", title="T", runs=(EULER,), quantities=quantities)
+    assert list(draw(figure, source).numbers[EULER.name]) == list(quantities)
+
+
 def test_a_reference_with_other_times_is_refused(source):
     figure = TimeSeries(
         name="t",
