@@ -33,9 +33,9 @@ DIGITS = (DOUBLE, 60)
 class ConvergenceTest:
     """A convergence test of methods on a scene.
 
-    :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. ``equations`` is
-    the problem that the methods integrate. If ``form`` is None, ``equations`` is ``scene``. Otherwise
-    ``equations`` is the scene with its equations in the form ``form``.
+    :meth:`of` creates a test from the arguments of the user, and :meth:`result` runs one method.
+    ``equations`` is the problem that the methods integrate. If ``form`` is None, the problem is ``scene``.
+    Otherwise it is the same scene, and its equations are written in the variables of ``form``.
     """
 
     scene: Problem
@@ -74,8 +74,8 @@ class ConvergenceTest:
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
         """Run one method with several step sizes, and return the errors and the observed order.
 
-        If the method cannot be emitted for the scene, the result contains the reason. Raises CompilerMissing
-        if the target needs a compiler that is not installed.
+        If the method cannot be emitted for the scene, the result is a NotEmitted object with the reason. If
+        the target needs a compiler that is not installed, the function raises CompilerMissing.
         """
         try:
             known = self.stated

@@ -24,7 +24,7 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""Determines the shortest step size h by (h/T)^(p+2) = 10^-SMALLEST.
+"""The exponent in the equation for the shortest step size h: (h/T)^(p+2) = 10^-SMALLEST.
 
 Here p is the expected order, and T is the length of the time span.
 """
@@ -33,7 +33,8 @@ STEPS, RATIO = 3, 8
 """The number of step sizes that are tried, and the ratio of two consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""The largest accepted difference between the orders computed from different pairs of step sizes."""
+"""An order is computed from each pair of consecutive step sizes. The orders may differ by at most AGREEMENT.
+"""
 
 SWEEPS = 400
 

@@ -1,19 +1,20 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 The documentation of some published software states order 4 for methods whose true order is 2. The tests of
-this software did not find the error. These tests used rotations about one axis, generators orthogonal to the
-state, or fields that do not depend on time.
+the software did not show the true order. They used rotations about one axis, vectors f that are orthogonal to
+the state, or fields that do not depend on time.
 
-Each kind of method has its own scenes. Methods for general fields run on equations y' = f(t, y).y. Here f is
-polynomial in the state y and the time t, and f(t, y) is in the Lie algebra. The values of f at different
-points do not commute. On the sphere, f has a component along the state. The groups are SO(3), GL(3) and the
-group of unipotent 4 x 4 matrices, which is nilpotent of class three. The groups act on themselves or on
-vectors.
+Each kind of method has its own scenes:
 
-Variational methods run on T*G, where G is a group, with Hamiltonians that have no symmetry and depend on
-time. Methods for linear equations run on equations y' = A(t).y, under left and right actions, where A(t) is
-in the Lie algebra. Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of
-each term is known, and these flows do not commute.
+- Methods for general fields run on equations y' = f(t, y).y with the state y and the time t. The value
+  f(t, y) is in the Lie algebra of a group, and the dot is the action of the Lie algebra on y. The function f
+  is polynomial, and its values for different t and y do not commute. The groups are SO(3), GL(3) and the
+  group of unipotent 4 x 4 matrices. They act on themselves or on vectors.
+- Variational methods run on T*G, where G is a group. The Hamiltonians have no symmetry and depend on time.
+- Methods for linear equations run on equations y' = A(t).y, where A(t) is in the Lie algebra. The group acts
+  from the left or from the right.
+- Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of each term is known.
+  The flows of different terms do not commute.
 """
 
 from __future__ import annotations
@@ -81,7 +82,11 @@ def _turn() -> Matrix:
 
 
 def _sphere() -> Problem:
-    """Return a scene in which SO(3) acts on a sphere, with a field that has a component along the state."""
+    """Return a scene in which SO(3) acts on a sphere.
+
+    The vector ``f`` is not orthogonal to the state. With an orthogonal vector, a test could miss errors of a
+    method.
+    """
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
         name="SO(3) acting on a sphere",
@@ -193,7 +198,7 @@ def _rotating_plane() -> Problem:
 
 
 def _rotating_top() -> Problem:
-    """Return the scene of a symmetric top in a rotating frame. The potential has no symmetry."""
+    """Return the scene of a rigid body in a rotating frame. The potential has no symmetry."""
     group = SO3()
     q, mu = group.point("q"), group.dual("p")
     inverse = Matrix.diag(1, 1, Rational(5, 2))
@@ -218,10 +223,11 @@ def _rotating_top() -> Problem:
 
 @cache
 def linear_fields() -> tuple[Problem, ...]:
-    """Return scenes with linear equations y' = A(t).y, for tests of methods for linear equations.
+    """Return the scenes on which methods for linear equations are tested.
 
-    The values A(t) are in the Lie algebra, and the dot is their action on the state y. The group acts from
-    the left or from the right.
+    Each scene has an equation y' = A(t).y with the state y. A(t) is in the Lie algebra of a group, and the
+    dot is the action of the Lie algebra on y. In one of the scenes, the group acts from the right. In the
+    other scenes, it acts from the left.
     """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])

@@ -96,7 +96,7 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 
 def _formatted(paragraph: str) -> Markup:
-    """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
+    """Return a paragraph of a docstring as HTML. Text in double or single backquotes is shown as code."""
     # The pattern has a group. Therefore ``re.split`` returns plain text and code alternately.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(

@@ -1,5 +1,6 @@
-"""The figures of the report: error against step size, error against CPU time, deviations, stability
-regions.
+"""The figures of the report.
+
+They show error against step size, error against CPU time, deviations over time, and stability regions.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # The bars of all points are drawn as one line. A NaN interrupts the line between two bars.
+            # All horizontal bars are drawn as one line. The line is interrupted where a coordinate is NaN.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -83,7 +84,8 @@ class _Drawing:
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size.
 
-    For each value of ``order`` that a curve has, a dashed reference line of this slope is drawn.
+    The attribute ``order`` of a curve is the slope of a dashed reference line. If several curves have the
+    same ``order``, only one line is drawn for them.
     """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
@@ -121,10 +123,9 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram. At each time t, a curve shows the largest deviation in the interval from 0 to
-    t.
+    """Return a log-log diagram of deviations, for example of an invariant from its initial value.
 
-    Dotted lines show growth proportional to t^(1/2) and to t.
+    At the time t, a curve shows the largest deviation in the interval from 0 to t. Dotted lines show growth proportional to t^(1/2) and to t.
     """
     drawing = _drawing()
     axes = drawing.axes
@@ -153,9 +154,9 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, the grid that covers :data:`PLANE` has no point on the imaginary axis. On this axis, the
-absolute value of the stability function is 1 for many methods. For a grid point on this axis, rounding
-errors would decide whether the point is in the stability region.
+The number is chosen so that the grid on :data:`PLANE` has no point on the imaginary axis. For many methods,
+the absolute value of the stability function is 1 on the imaginary axis. For a grid point on this axis,
+rounding errors would decide whether the point is in the stability region.
 """
 
 MARGIN = 0.7
@@ -322,8 +323,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    Work-precision curves seldom reach the lower left corner and the upper right corner. The corner with fewer
-    points of ``points`` is chosen.
+    The curves of the diagram seldom reach the lower left corner and the upper right corner. The lines are
+    drawn in the one of these two corners that contains fewer of the given points.
     """
     if not points:
         return

@@ -77,7 +77,7 @@ class Styles:
                 self._places[name] = _free(self._places.values(), _digest(name))
 
     def of(self, label: str) -> Style:
-        """Return the style of the method or peer with a label.
+        """Return the style of the method or peer (other integrator) that ``label`` names.
 
         The label may begin with ``adaptive``. It may end with a remark in brackets: a target such as ``C``,
         or a form of the equations such as ``body momentum``.
@@ -94,7 +94,7 @@ class Styles:
 
 
 def method_name(label: str) -> str:
-    """Return the name of the method or peer in a label.
+    """Return the name of the method or peer (other integrator) that ``label`` contains.
 
     >>> method_name("adaptive ambient:dop853 (body momentum and unit quaternion)")
     'ambient:dop853'
@@ -110,8 +110,8 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return a dictionary that maps each default method to the indices of its colour and its marker.
 
-    Each tuple in ``PICTURED`` lists methods that may appear together in one picture. If possible, these
-    methods differ in colour and in marker.
+    The default methods are the methods in ``PICTURED``. Each tuple in ``PICTURED`` lists methods that may
+    appear together in one picture. If possible, the methods of a tuple have different colours and markers.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -124,9 +124,10 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    ``used`` and ``taken`` contain pairs (colour, marker). If several markers are equally rare, the function
-    prefers a marker whose pair with the chosen colour is neither in ``used`` nor in ``taken``. If several
-    colours or markers still remain, the number ``first`` determines the choice.
+    ``used`` and ``taken`` contain pairs (colour, marker). The function chooses the colour first, then the
+    marker. If several markers occur least often, the function prefers a marker that forms a new pair with
+    the colour. A pair is new if it is neither in ``used`` nor in ``taken``. If the choice is still open, the
+    number ``first`` determines it.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))
