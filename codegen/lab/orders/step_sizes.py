@@ -2,8 +2,8 @@
 stated order.
 
 The slope between two consecutive runs is the logarithm of the ratio of their errors, divided by the logarithm
-of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The longest
-sequence of consecutive runs without an excluded run is used.
+of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The excluded runs
+divide the sequence of runs into sections. Only the longest section is used.
 
 For a smooth problem and a method of order p, the error is C h^p (1 + O(h)) with a constant C and the step
 size h. A slope therefore differs from p by O(h). If h is divided by r, this difference is also divided by r.
@@ -11,8 +11,8 @@ Let d be the difference between a slope and p. The previous slope differs from p
 has changed by about (r - 1) d. Therefore the change of the slope, divided by r - 1, is an estimate of d. The
 slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
 
-The last slope is compared with the stated order. It may differ by at most :data:`TOLERANCE` in both
-directions, so a method whose order is higher than stated also fails.
+The last slope is compared with the stated order. The two numbers may differ by at most :data:`TOLERANCE`.
+Therefore a method fails, too, if its order is higher than stated.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used if its error is more than CLEAR times the estimated rounding error of the run.
+"""A run is used only if its error is larger than two bounds.
 
-The error must also be more than CLEAR times the uncertainty of the reference solution. For two runs whose
-step sizes differ by a factor of 2, each of these two errors then changes the slope by less than 0.03.
+The bounds are CLEAR times the estimated rounding error of the run, and CLEAR times the uncertainty of the
+reference solution. If the step sizes of two runs differ by a factor of 2, rounding errors then change the
+slope by less than 0.03. The same holds for the uncertainty of the reference solution.
 """
 
 ZERO = 0.5
@@ -62,8 +63,8 @@ class Run:
 class Refinement:
     """Runs of a method with different step sizes. The properties give the observed order of the method.
 
-    ``runs`` begins with the run with the longest steps. ``short`` is the order measured with very short steps (:mod:`codegen.lab.orders.short_steps`), or None if
-    it was not measured.
+    In ``runs``, the step sizes decrease. ``short`` is the order measured with very short steps
+    (:mod:`codegen.lab.orders.short_steps`), or None if it was not measured.
     """
 
     runs: tuple[Run, ...]
@@ -71,8 +72,9 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used for slopes: the longest sequence of consecutive runs without an excluded
-        run.
+        """The runs that are used for slopes.
+
+        The excluded runs divide the sequence of runs into sections. The longest section is used.
         """
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
@@ -163,12 +165,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The runs end when the slopes
-    have settled, or when rounding errors dominate the error of a run. If ``to_rounding`` is True, the runs
-    continue after the slopes have settled. The runs also continue after a failed run.
+    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The sequence ends if rounding
+    errors dominate the error of the last run. If ``to_rounding`` is False, the sequence also ends if the
+    slopes have settled.
 
-    If rounding errors dominate before the slopes have settled, runs with longer steps and with intermediate
-    step sizes are added.
+    If rounding errors dominate before the slopes have settled, the function adds runs with fewer than N steps
+    and runs with intermediate numbers of steps.
     """
     runs: list[Run] = []
     steps = FIRST

@@ -44,14 +44,15 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The time span of all scenes. It is short because solutions of polynomial equations may soon become
-infinite.
+"""The time span of all scenes.
+
+The span is short because a solution of polynomial equations may become infinite after a short time.
 """
 
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return scenes with vector fields without symmetry, for tests of methods for general fields."""
+    """Return the scenes on which methods for general fields are tested. The fields have no symmetry."""
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -142,7 +143,10 @@ def _nilpotent() -> Problem:
 
 @cache
 def hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes without symmetry, for tests of variational methods on T*G."""
+    """Return the scenes on which variational methods on T*G are tested.
+
+    The Hamiltonians have no symmetry.
+    """
     t, half = Symbol("t", real=True), Rational(1, 2)
     places = ((0, 1), (1, 2), (0, 2))
     basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
@@ -168,9 +172,9 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes without symmetry, for tests of splitting methods.
+    """Return the scenes on which splitting methods are tested. The Hamiltonians have no symmetry.
 
-    The Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
+    Each Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
     kinetic energy T, the gyroscopic term G of a rotating frame, and the potential energy V.
     """
     return _rotating_plane(), _rotating_top()
@@ -260,9 +264,10 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    Methods for linear equations are tested on linear equations. Splitting methods are tested on Hamiltonians
-    that are a sum of terms, where the exact flow of each term is known. Methods for Hamiltonian systems are
-    tested on Hamiltonians, and all remaining methods on vector fields.
+    - Methods for linear equations: :func:`linear_fields`.
+    - Splitting methods: :func:`split_hamiltonians`.
+    - Other methods for Hamiltonian systems: :func:`hamiltonians`.
+    - All other methods: :func:`fields`.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

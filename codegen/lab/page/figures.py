@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MARKS = 9
-"""The largest number of markers on a curve that has many points, such as the boundary of a region."""
+"""The largest number of markers on a line with many points."""
 
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
@@ -32,9 +32,8 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line to draw, or None for no line. ``upper`` is empty or contains a
-    number for each point. If ``upper`` is not empty, a horizontal bar is drawn at each point, from x to the
-    number of the point.
+    ``order`` is the slope of a reference line, or None if no line is drawn. If ``upper`` is not empty, a
+    horizontal bar is drawn at each point (x, y), from x to the corresponding number in ``upper``.
     """
 
     label: str
@@ -102,10 +101,11 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against the CPU time of a run over the time span of the scene.
+    """Return a log-log diagram of error against CPU time. Each run covers the time span of the scene.
 
-    For a method of order p with equal steps, the error is proportional to T^(-p), where T is the CPU time.
-    Therefore the diagram contains reference lines of slope -p for each p of :data:`SLOPES`.
+    For equal steps, the CPU time is proportional to the number of steps. Then the error of a method of order
+    p is proportional to T^(-p), where T is the CPU time. The diagram therefore contains a reference line of
+    slope -p for each p of :data:`SLOPES`.
     """
     drawing = _drawing()
     for curve in curves:
@@ -125,7 +125,8 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
     """Return a log-log diagram of deviations, for example of an invariant from its initial value.
 
-    At the time t, a curve shows the largest deviation in the interval from 0 to t. Dotted lines show growth proportional to t^(1/2) and to t.
+    At the time t, a curve shows the largest deviation in the interval from 0 to t. Dotted lines show growth
+    proportional to t^(1/2) and to t.
     """
     drawing = _drawing()
     axes = drawing.axes
@@ -221,10 +222,11 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid inside :data:`PLANE` that covers the stability regions and a margin around them.
+        """Return a grid for a diagram of the stability regions of ``functions``.
 
-        A part of a region that is outside PLANE is not covered. If a region or its margin reaches beyond the
-        upper or the lower edge of PLANE, the grid covers all of PLANE.
+        The grid covers the stability regions and a margin around them, as far as they are inside
+        :data:`PLANE`. If the margin crosses the upper or the lower edge of PLANE, the grid covers all of
+        PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -243,9 +245,9 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at the grid points, as one list for each row.
+        """Return the absolute values of ``function`` at the grid points, as a list for each value of y.
 
-        If ``step`` is not 1, only grid points whose indices are multiples of ``step`` are used. Values above
+        The grid points are those whose indices in ``xs`` and ``ys`` are multiples of ``step``. Values above
         1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]

@@ -1,10 +1,16 @@
 """The colour, marker and dash pattern of each method in the pictures and tables of the report.
 
-A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line of a method is solid for equal steps, and dash-dotted for step-size control. It is dotted if the code was
-emitted for a target (programming language) that is not the default target. Peers (other integrators, measured
-for comparison) have open markers and dashed lines. Colour-blind readers can distinguish the colours. In grey
-print, markers and dash patterns distinguish the methods.
+A method has the same colour and marker in every section, on every page and in the pictures of the README.
+
+The dash pattern of a line has the following meanings:
+
+- Solid: a method with equal steps.
+- Dash-dotted: a method with step-size control.
+- Dotted: a method with equal steps, in a target (programming language) that is not the default target.
+- Dashed, with open markers: a peer (another integrator, measured for comparison).
+
+Colour-blind readers can distinguish the colours. In grey print, markers and dash patterns distinguish the
+methods.
 """
 
 from __future__ import annotations
@@ -58,9 +64,9 @@ class Style:
 class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
-    A default method of a command has a fixed colour and marker. Any other method gets the colour and the
-    marker that the fewest methods of the report use. If several colours or markers are equally rare, the name
-    of the method determines the choice.
+    The default methods (the methods in ``PICTURED``) have fixed colours and markers. Another method gets the
+    colour and the marker that occur least often in the report. If several colours or markers occur least
+    often, the name of the method determines the choice.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
