@@ -1,8 +1,8 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 The documentation of some published software states order 4 for methods whose true order is 2. The tests of
-the software did not show the true order. They used rotations about one axis, vectors f that are orthogonal to
-the state, or fields that do not depend on time.
+the software did not show the true order. They used rotations about one axis, axes of rotation that are
+orthogonal to the state, or fields that do not depend on time.
 
 Each kind of method has its own scenes:
 
@@ -85,8 +85,8 @@ def _turn() -> Matrix:
 def _sphere() -> Problem:
     """Return a scene in which SO(3) acts on a sphere.
 
-    The vector ``f`` is not orthogonal to the state. With an orthogonal vector, a test could miss errors of a
-    method.
+    The axis of the rotation (the vector ``f``) is not orthogonal to the state. With an orthogonal axis, a
+    test could miss errors of a method.
     """
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(

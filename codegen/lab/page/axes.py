@@ -117,8 +117,8 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
     """Draw the legend above the axes. If several curves have the same label, the label is listed once.
 
-    ``numbers`` maps each label to the number that the SVG element gives to the legend entry. By default, the
-    entries are numbered 0, 1, 2, ....
+    In the SVG element, the legend entry of a curve has the identifier ``key:k`` with a number k. ``numbers``
+    maps each label to its number. By default, the entries are numbered 0, 1, 2, ....
     """
     entries: dict[str, object] = {}
     for axes in panels:
