@@ -83,7 +83,10 @@ WRONG: dict[str, tuple[Call, str]] = {
     "trees of a text": (lambda: trees("rooted", "4"), "order: '4' of type str"),  # type: ignore[arg-type]
     "trees of a truth value": (lambda: trees("rooted", True), "order: True of type bool"),
     "trees of order 1000": (lambda: trees("rooted", 1000), "order: 1000; expected an integer from 1 to 40"),
-    "too many trees": (lambda: trees("rooted", 30), "print only the number of trees: orderconds trees --count"),
+    "too many trees": (
+        lambda: trees("rooted", 30),
+        "print only the number of trees: orderconds trees --count",
+    ),
     "emit nothing": (
         lambda: codegen.emit(RIGID, None),
         "method: an object of type NoneType; expected a Tableau",

@@ -197,7 +197,11 @@ MALFORMED = {
     "code": (HEAD + 'A = [[]]\nb = ["open(1)"]\n', "b[1]: '('", "coefficient"),
     "division by zero": (HEAD + 'A = [[]]\nb = ["1/(1 - 1)"]\n', "b[1]: division by zero", "not zero"),
     "tower of powers": (HEAD + 'A = [[]]\nb = ["9^9^9^9"]\n', "b[1]: a power of a power", "parentheses"),
-    "unknown number": (HEAD + 'A = [[]]\nb = ["g"]\nnumbers = { h = "1" }\n', "the name 'g'", "the table [numbers] (h)"),
+    "unknown number": (
+        HEAD + 'A = [[]]\nb = ["g"]\nnumbers = { h = "1" }\n',
+        "the name 'g'",
+        "the table [numbers] (h)",
+    ),
     "numbers in a circle": (EULER + 'numbers = { g = "h", h = "1/g" }\n', "g -> h -> g", "no cycle"),
     "numbers in a long chain": (
         EULER + "[numbers]\n" + "".join(f'g{i} = "g{i + 1}"\n' for i in range(60)) + 'g60 = "1"\n',
