@@ -33,9 +33,9 @@ DIGITS = (DOUBLE, 60)
 class ConvergenceTest:
     """A convergence test of methods on a scene.
 
-    :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. ``equations`` is
-    the problem that the methods integrate. If ``form`` is None, ``equations`` is ``scene``. Otherwise
-    ``equations`` is the scene with its equations in the form ``form``.
+    :meth:`of` creates a test from the arguments of the user, and :meth:`result` runs one method.
+    ``equations`` is the problem that the methods integrate. If ``form`` is None, the problem is ``scene``.
+    Otherwise it consists of the equations of the scene in the variables of ``form``.
     """
 
     scene: Problem
@@ -74,8 +74,8 @@ class ConvergenceTest:
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
         """Run one method with several step sizes, and return the errors and the observed order.
 
-        If the method cannot be emitted for the scene, the result contains the reason. Raises CompilerMissing
-        if the target needs a compiler that is not installed.
+        If the method cannot be emitted for the scene, the result is a NotEmitted object with the reason. If
+        the target needs a compiler that is not installed, the function raises CompilerMissing.
         """
         try:
             known = self.stated
@@ -131,12 +131,13 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene, and compare it with the order from the order conditions.
+    """Measure the order of methods on a scene, and compare it with the expected order.
 
-    The arguments are those of the command ``orderconds converge``. A method is given by its name or by an
+    The expected order is ``stated``. If ``stated`` is None, it is the order from the order conditions. The
+    arguments are those of the command ``orderconds converge``. A method is given by its name or by an
     :class:`orderconds.Tableau`. If a method cannot be emitted for the scene, its result contains the reason.
-    Wrong arguments raise InputError, of which SceneError, MethodError, UnknownName and TableauError are
-    subclasses.
+    Wrong arguments raise InputError or one of its subclasses SceneError, MethodError, UnknownName and
+    TableauError.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")

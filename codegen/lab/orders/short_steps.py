@@ -1,12 +1,13 @@
 """The order of a method, measured with steps that are far shorter than every time scale of the scene.
 
-A small parameter e of the scene can hide the leading term of the error. For example, let the error be e h^p +
-h^(p+1). If the step size h is much larger than e, the observed slope is p + 1 and not p. In arithmetic with
-100 digits, a step can be so short that the leading term dominates.
+A small parameter of the scene can hide the leading term of the error. For example, let the error of a run be
+e h^p + h^(p+1), where e is the parameter and h is the step size. If h is much larger than e, the observed
+order is p + 1 and not p. If h is much smaller than e, the first term dominates, and the observed order is p.
+The arithmetic with 100 digits allows such short steps.
 
-No reference solution is needed. Let C h^(p+1) be the local error of a step. The difference between one step
-of size h and two steps of size h/2 is then (1 - 2^-p) C h^(p+1) to leading order. On logarithmic axes, the
-slope of this difference against h is p + 1.
+No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
+of two steps of size h/2 is then 2 C (h/2)^(p+1). Therefore the difference between the two results is
+proportional to h^(p+1). The slope of log(difference) against log(h) is p + 1.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""Determines the shortest step size h by (h/T)^(p+2) = 10^-SMALLEST.
+"""The exponent in the equation for the shortest step size h: (h/T)^(p+2) = 10^-SMALLEST.
 
 Here p is the expected order, and T is the length of the time span.
 """
@@ -33,7 +34,8 @@ STEPS, RATIO = 3, 8
 """The number of step sizes that are tried, and the ratio of two consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""The largest accepted difference between the orders computed from different pairs of step sizes."""
+"""An order is computed from each pair of consecutive step sizes. The orders may differ by at most AGREEMENT.
+"""
 
 SWEEPS = 400
 
@@ -62,7 +64,7 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
     """Return the difference between the state after one step and the state after two half steps.
 
-    The result is the largest absolute difference of a coordinate.
+    The result is the maximum, over all coordinates, of the absolute difference.
     """
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)

@@ -2,8 +2,8 @@
 stated order.
 
 The slope between two consecutive runs is the logarithm of the ratio of their errors, divided by the logarithm
-of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The longest
-sequence of consecutive runs without an excluded run is used.
+of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The excluded runs
+divide the sequence of runs into sections. Only the longest section is used.
 
 For a smooth problem and a method of order p, the error is C h^p (1 + O(h)) with a constant C and the step
 size h. A slope therefore differs from p by O(h). If h is divided by r, this difference is also divided by r.
@@ -11,8 +11,8 @@ Let d be the difference between a slope and p. The previous slope differs from p
 has changed by about (r - 1) d. Therefore the change of the slope, divided by r - 1, is an estimate of d. The
 slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
 
-The last slope is compared with the stated order. It may differ by at most :data:`TOLERANCE` in both
-directions, so a method whose order is higher than stated also fails.
+The last slope is compared with the stated order. The two numbers may differ by at most :data:`TOLERANCE`.
+Therefore a method fails, too, if its order is higher than stated.
 """
 
 from __future__ import annotations
@@ -25,17 +25,18 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used if its error is more than CLEAR times the estimated rounding error of the run.
+"""A run is used only if its error is larger than two bounds.
 
-The error must also be more than CLEAR times the uncertainty of the reference solution. For two runs whose
-step sizes differ by a factor of 2, each of these two errors then changes the slope by less than 0.03.
+The bounds are CLEAR times the estimated rounding error of the run, and CLEAR times the uncertainty of the
+reference solution. If the step sizes of two runs differ by a factor of 2, rounding errors then change the
+slope by less than 0.03. The same holds for the uncertainty of the reference solution.
 """
 
 ZERO = 0.5
 """An order measured with very short steps is ignored if it is at most ZERO.
 
-Rounded coefficients satisfy the order conditions only up to rounding errors. With very short steps, the
-effect of these rounding errors dominates, and the measured order can be close to 0.
+If the coefficients of a method are rounded, they do not satisfy the order conditions exactly. With very short
+steps, this inaccuracy dominates the error. The measured order can then be close to 0.
 """
 
 FIRST = 5
@@ -47,9 +48,9 @@ LONGER = (2, 3, 4)
 
 @dataclass(frozen=True)
 class Run:
-    """One run of ``steps`` steps of size ``h``, and the error of its final state.
+    """One run with ``steps`` steps of size ``h``, and the error of its final state.
 
-    ``excluded`` is the reason why the run is not used for slopes, or '' for a run that is used.
+    If the run is not used for slopes, ``excluded`` is the reason. Otherwise ``excluded`` is empty.
     """
 
     steps: int
@@ -60,10 +61,10 @@ class Run:
 
 @dataclass(frozen=True)
 class Refinement:
-    """Runs from long to short steps, and the order estimated from their slopes.
+    """Runs of a method with different step sizes. The properties give the observed order of the method.
 
-    ``short`` is the order measured with very short steps (:mod:`codegen.lab.orders.short_steps`), or None if
-    it was not measured.
+    In ``runs``, the step sizes decrease. ``short`` is the order measured with very short steps
+    (:mod:`codegen.lab.orders.short_steps`), or None if it was not measured.
     """
 
     runs: tuple[Run, ...]
@@ -71,8 +72,9 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used for slopes: the longest sequence of consecutive runs without an excluded
-        run.
+        """The runs that are used for slopes.
+
+        The excluded runs divide the sequence of runs into sections. The longest section is used.
         """
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
@@ -85,15 +87,19 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes of log(error) against log(step size) between consecutive runs of :attr:`clean`."""
+        """The slopes of log(error) against log(step size).
+
+        Each slope is computed from two consecutive runs. Only the runs in :attr:`clean` are used.
+        """
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
-        """True if the last two slopes differ from the limit for short steps by at most :data:`SETTLED`.
+        """True if the last two slopes are close to the limit of the slopes for short steps.
 
-        These two differences are estimated. The docstring of :mod:`codegen.lab.orders.step_sizes` explains
-        the estimate.
+        The limit is not known. The distance of a slope from the limit is therefore estimated, and both
+        estimates must be at most :data:`SETTLED`. The docstring of :mod:`codegen.lab.orders.step_sizes`
+        explains how the distance is estimated.
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
@@ -101,29 +107,28 @@ class Refinement:
 
     @property
     def observed(self) -> float | None:
-        """The observed order: the last slope, or None if fewer than two runs are used."""
+        """The observed order, which is the last of :attr:`slopes`. It is None if there is no slope."""
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). Two
-        orders count as equal if they differ by at most :data:`TOLERANCE`.
+        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). In
+        the rules, p or s equals ``stated`` if the difference is at most :data:`TOLERANCE`. It is above or
+        below ``stated`` if the difference is larger.
 
-        If fewer than two runs are used, there is no slope, and the verdict is ``undecided``.
+        If there is no slope, the verdict is ``undecided``.
 
-        If the slopes have settled (:attr:`settled`), the first case that applies gives the verdict:
+        If the slopes have settled (:attr:`settled`), the first rule that applies gives the verdict:
 
-        - If s is above :data:`ZERO` and below ``stated``, the verdict is ``fails``.
+        - If s is larger than :data:`ZERO` and below ``stated``, the verdict is ``fails``.
         - If p equals ``stated``, the verdict is ``holds``.
-        - If s equals ``stated`` and p is above ``stated``, the verdict is ``holds``. At the usual step sizes,
-          the leading term does not dominate the error.
+        - If s equals ``stated`` and p is above ``stated``, the verdict is ``holds``.
         - If s equals ``stated`` and p is below ``stated``, the verdict is ``undecided``.
         - In all other cases, the verdict is ``fails``.
 
-        If the slopes have not settled, the verdict is ``holds`` if three conditions are met: some errors are
-        too small to be used (:attr:`too_fine`), s equals ``stated``, and p is not below ``stated``. Otherwise
-        the verdict is ``undecided``.
+        If the slopes have not settled, the verdict is ``holds`` if :attr:`too_fine` is True, s equals
+        ``stated``, and p is not below ``stated``. Otherwise the verdict is ``undecided``.
         """
         if self.observed is None:
             return "undecided"
@@ -160,12 +165,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The runs end when the slopes
-    have settled, or when rounding errors dominate the error of a run. If ``to_rounding`` is True, the runs
-    continue after the slopes have settled. The runs also continue after a failed run.
+    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The sequence ends if rounding
+    errors dominate the error of the last run. If ``to_rounding`` is False, the sequence also ends if the
+    slopes have settled.
 
-    If rounding errors dominate before the slopes have settled, runs with longer steps and with intermediate
-    step sizes are added.
+    If rounding errors dominate before the slopes have settled, the function adds runs with fewer than N steps
+    and runs with intermediate numbers of steps.
     """
     runs: list[Run] = []
     steps = FIRST
@@ -189,6 +194,7 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 def rounding(steps: int, epsilon: float, size: float) -> float:
     """Return an estimate of the largest accumulated rounding error of a run.
 
-    It is the number of steps, times the machine epsilon, times the size of the state (at least 1).
+    The estimate is the product of the number of steps, the machine epsilon ``epsilon`` and the size of the
+    state, ``size``. If ``size`` is below 1, it is replaced by 1.
     """
     return steps * epsilon * max(1.0, size)

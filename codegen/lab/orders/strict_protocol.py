@@ -47,9 +47,9 @@ def strict(
 ) -> Iterator[Convergence]:
     """Test the order of the method on each scene, and yield the results.
 
-    ``scenes`` are by default the scenes of the protocol for the family of the method. ``tell`` is called with
-    a text before each test. ``alter`` can change the compiled method. For example, it can add an error, to
-    check that the test finds this error.
+    By default, the scenes are those of :func:`strict_scenes` for the family of the method. ``tell`` is called
+    with a text before each test. ``alter`` gets the compiled method and returns the method that is tested. A
+    function ``alter`` that inserts an error can show that the test finds errors.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

@@ -1,19 +1,20 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 The documentation of some published software states order 4 for methods whose true order is 2. The tests of
-this software did not find the error. These tests used rotations about one axis, generators orthogonal to the
-state, or fields that do not depend on time.
+the software did not show the true order. They used rotations about one axis, axes of rotation that are
+orthogonal to the state, or fields that do not depend on time.
 
-Each kind of method has its own scenes. Methods for general fields run on equations y' = f(t, y).y. Here f is
-polynomial in the state y and the time t, and f(t, y) is in the Lie algebra. The values of f at different
-points do not commute. On the sphere, f has a component along the state. The groups are SO(3), GL(3) and the
-group of unipotent 4 x 4 matrices, which is nilpotent of class three. The groups act on themselves or on
-vectors.
+Each kind of method has its own scenes:
 
-Variational methods run on T*G, where G is a group, with Hamiltonians that have no symmetry and depend on
-time. Methods for linear equations run on equations y' = A(t).y, under left and right actions, where A(t) is
-in the Lie algebra. Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of
-each term is known, and these flows do not commute.
+- Methods for general fields run on equations y' = f(t, y).y with the state y and the time t. The value
+  f(t, y) is in the Lie algebra of a group, and the dot is the action of the Lie algebra on y. The function f
+  is polynomial, and its values for different t and y do not commute. The groups are SO(3), GL(3) and the
+  group of unipotent 4 x 4 matrices. They act on themselves or on vectors.
+- Variational methods run on T*G, where G is a group. The Hamiltonians have no symmetry and depend on time.
+- Methods for linear equations run on equations y' = A(t).y, where A(t) is in the Lie algebra. The group acts
+  from the left or from the right.
+- Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of each term is known.
+  The flows of different terms do not commute.
 """
 
 from __future__ import annotations
@@ -43,14 +44,15 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The time span of all scenes. It is short because solutions of polynomial equations may soon become
-infinite.
+"""The time span of all scenes.
+
+The span is short because a solution of polynomial equations may become infinite after a short time.
 """
 
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return scenes with vector fields without symmetry, for tests of methods for general fields."""
+    """Return the scenes on which methods for general fields are tested. The fields have no symmetry."""
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -81,7 +83,11 @@ def _turn() -> Matrix:
 
 
 def _sphere() -> Problem:
-    """Return a scene in which SO(3) acts on a sphere, with a field that has a component along the state."""
+    """Return a scene in which SO(3) acts on a sphere.
+
+    The axis of the rotation (the vector ``f``) is not orthogonal to the state. With an orthogonal axis, a
+    test could miss errors of a method.
+    """
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
         name="SO(3) acting on a sphere",
@@ -137,7 +143,10 @@ def _nilpotent() -> Problem:
 
 @cache
 def hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes without symmetry, for tests of variational methods on T*G."""
+    """Return the scenes on which variational methods on T*G are tested.
+
+    The Hamiltonians have no symmetry.
+    """
     t, half = Symbol("t", real=True), Rational(1, 2)
     places = ((0, 1), (1, 2), (0, 2))
     basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
@@ -163,9 +172,9 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return Hamiltonian scenes without symmetry, for tests of splitting methods.
+    """Return the scenes on which splitting methods are tested. The Hamiltonians have no symmetry.
 
-    The Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
+    Each Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
     kinetic energy T, the gyroscopic term G of a rotating frame, and the potential energy V.
     """
     return _rotating_plane(), _rotating_top()
@@ -193,7 +202,7 @@ def _rotating_plane() -> Problem:
 
 
 def _rotating_top() -> Problem:
-    """Return the scene of a symmetric top in a rotating frame. The potential has no symmetry."""
+    """Return the scene of a rigid body in a rotating frame. The potential has no symmetry."""
     group = SO3()
     q, mu = group.point("q"), group.dual("p")
     inverse = Matrix.diag(1, 1, Rational(5, 2))
@@ -218,10 +227,11 @@ def _rotating_top() -> Problem:
 
 @cache
 def linear_fields() -> tuple[Problem, ...]:
-    """Return scenes with linear equations y' = A(t).y, for tests of methods for linear equations.
+    """Return the scenes on which methods for linear equations are tested.
 
-    The values A(t) are in the Lie algebra, and the dot is their action on the state y. The group acts from
-    the left or from the right.
+    Each scene has an equation y' = A(t).y with the state y. A(t) is in the Lie algebra of a group, and the
+    dot is the action of the Lie algebra on y. In one of the scenes, the group acts from the right. In the
+    other scenes, it acts from the left.
     """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])
@@ -254,9 +264,10 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    Methods for linear equations are tested on linear equations. Splitting methods are tested on Hamiltonians
-    that are a sum of terms, where the exact flow of each term is known. Methods for Hamiltonian systems are
-    tested on Hamiltonians, and all remaining methods on vector fields.
+    - Methods for linear equations: :func:`linear_fields`.
+    - Splitting methods: :func:`split_hamiltonians`.
+    - Other methods for Hamiltonian systems: :func:`hamiltonians`.
+    - All other methods: :func:`fields`.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

@@ -20,13 +20,14 @@ SIZE = (4.7, 3.9)
 LINE = 0.175
 """Height of a line of the legend in inches.
 
-A figure has room for three lines. For each further line, the height of the figure is increased by LINE.
+A figure has room for a legend of three lines. If the legend has more lines, the figure is made higher by
+LINE for each additional line.
 """
 
 LONG_LABEL = 27
 """The largest number of characters of a label in a legend with two columns.
 
-In a figure of the width ``SIZE[0]``, the legend has one column if a label is longer.
+If a label has more characters, the legend of a figure with the default width ``SIZE[0]`` has one column.
 """
 
 
@@ -114,11 +115,10 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
-    """Draw the legend above the axes, where it hides no curve. A label that several curves share is listed
-    once.
+    """Draw the legend above the axes. If several curves have the same label, the label is listed once.
 
-    ``numbers`` maps each label to the number of its curve in the SVG element. By default, the curves are
-    numbered 0, 1, 2, ... in the order of the legend.
+    In the SVG element, the legend entry of a curve has the identifier ``key:k`` with a number k. ``numbers``
+    maps each label to its number. By default, the entries are numbered 0, 1, 2, ....
     """
     entries: dict[str, object] = {}
     for axes in panels:
@@ -127,7 +127,7 @@ def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | 
     if not entries:
         return
     width, height = figure.get_size_inches()
-    # The number of columns increases with the width of the figure.
+    # The legend has one or two columns in a figure of the default width, and more in a wider figure.
     columns = max(1, int(width / SIZE[0] * (1 if max(map(len, entries)) > LONG_LABEL else 2)))
     lines = -(-len(entries) // columns)
     figure.set_size_inches(width, height + LINE * max(0, lines - 3))

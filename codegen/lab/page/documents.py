@@ -68,7 +68,7 @@ class Summary:
     - ``title`` and ``name``: the title and the name of the scene.
     - ``page``: the file name of the page of the scene.
     - ``about``: the first paragraph of the description of the scene, as HTML.
-    - ``sections``: the short results of the measurements, as HTML.
+    - ``sections``: a short result of each measurement, as HTML.
     """
 
     title: str
@@ -96,8 +96,8 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 
 def _formatted(paragraph: str) -> Markup:
-    """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
-    # The pattern has a group. Therefore ``re.split`` returns plain text and code alternately.
+    """Return a paragraph of a docstring as HTML. Text in double or single backquotes is shown as code."""
+    # The list ``parts`` contains plain text and code alternately, and begins with plain text.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)

@@ -1,5 +1,6 @@
-"""The figures of the report: error against step size, error against CPU time, deviations, stability
-regions.
+"""The figures of the report.
+
+They show error against step size, error against CPU time, deviations over time, and stability regions.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MARKS = 9
-"""The largest number of markers on a curve that has many points, such as the boundary of a region."""
+"""The largest number of markers on a line with many points."""
 
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
@@ -31,9 +32,8 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line to draw, or None for no line. ``upper`` is empty or contains a
-    number for each point. If ``upper`` is not empty, a horizontal bar is drawn at each point, from x to the
-    number of the point.
+    ``order`` is the slope of a reference line, or None if no line is drawn. If ``upper`` is not empty, a
+    horizontal bar is drawn at each point (x, y), from x to the corresponding number in ``upper``.
     """
 
     label: str
@@ -68,7 +68,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # The bars of all points are drawn as one line. A NaN interrupts the line between two bars.
+            # All horizontal bars are drawn as one line. The line is interrupted where a coordinate is NaN.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -83,7 +83,8 @@ class _Drawing:
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size.
 
-    For each value of ``order`` that a curve has, a dashed reference line of this slope is drawn.
+    The attribute ``order`` of a curve is the slope of a dashed reference line. If several curves have the
+    same ``order``, only one line is drawn for them.
     """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
@@ -100,10 +101,11 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against the CPU time of a run over the time span of the scene.
+    """Return a log-log diagram of error against CPU time. Each run covers the time span of the scene.
 
-    For a method of order p with equal steps, the error is proportional to T^(-p), where T is the CPU time.
-    Therefore the diagram contains reference lines of slope -p for each p of :data:`SLOPES`.
+    For equal steps, the CPU time is proportional to the number of steps. Then the error of a method of order
+    p is proportional to T^(-p), where T is the CPU time. The diagram therefore contains a reference line of
+    slope -p for each p of :data:`SLOPES`.
     """
     drawing = _drawing()
     for curve in curves:
@@ -121,10 +123,10 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram. At each time t, a curve shows the largest deviation in the interval from 0 to
-    t.
+    """Return a log-log diagram of deviations, for example of an invariant from its initial value.
 
-    Dotted lines show growth proportional to t^(1/2) and to t.
+    At the time t, a curve shows the largest deviation in the interval from 0 to t. Dotted lines show growth
+    proportional to t^(1/2) and to t.
     """
     drawing = _drawing()
     axes = drawing.axes
@@ -153,9 +155,9 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, the grid that covers :data:`PLANE` has no point on the imaginary axis. On this axis, the
-absolute value of the stability function is 1 for many methods. For a grid point on this axis, rounding
-errors would decide whether the point is in the stability region.
+The number is chosen so that the grid on :data:`PLANE` has no point on the imaginary axis. For many methods,
+the absolute value of the stability function is 1 on the imaginary axis. For a grid point on this axis,
+rounding errors would decide whether the point is in the stability region.
 """
 
 MARGIN = 0.7
@@ -220,10 +222,11 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid inside :data:`PLANE` that covers the stability regions and a margin around them.
+        """Return a grid for a diagram of the stability regions of ``functions``.
 
-        A part of a region that is outside PLANE is not covered. If a region or its margin reaches beyond the
-        upper or the lower edge of PLANE, the grid covers all of PLANE.
+        The grid covers the stability regions and a margin around them, as far as they are inside
+        :data:`PLANE`. If the margin crosses the upper or the lower edge of PLANE, the grid covers all of
+        PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -242,9 +245,9 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at the grid points, as one list for each row.
+        """Return the absolute values of ``function`` at the grid points, as a list for each value of y.
 
-        If ``step`` is not 1, only grid points whose indices are multiples of ``step`` are used. Values above
+        The grid points are those whose indices in ``xs`` and ``ys`` are multiples of ``step``. Values above
         1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
@@ -322,8 +325,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    Work-precision curves seldom reach the lower left corner and the upper right corner. The corner with fewer
-    points of ``points`` is chosen.
+    The curves of the diagram seldom reach the lower left corner and the upper right corner. The lines are
+    drawn in the one of these two corners that contains fewer of the given points.
     """
     if not points:
         return

@@ -1,10 +1,16 @@
 """The colour, marker and dash pattern of each method in the pictures and tables of the report.
 
-A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line of a method is solid for equal steps, and dash-dotted for step-size control. It is dotted if the code was
-emitted for a target (programming language) that is not the default target. Peers (other integrators, measured
-for comparison) have open markers and dashed lines. Colour-blind readers can distinguish the colours. In grey
-print, markers and dash patterns distinguish the methods.
+A method has the same colour and marker in every section, on every page and in the pictures of the README.
+
+The dash pattern of a line has the following meanings:
+
+- Solid: a method with equal steps.
+- Dash-dotted: a method with step-size control.
+- Dotted: a method with equal steps, in a target (programming language) that is not the default target.
+- Dashed, with open markers: a peer (another integrator, measured for comparison).
+
+Colour-blind readers can distinguish the colours. In grey print, markers and dash patterns distinguish the
+methods.
 """
 
 from __future__ import annotations
@@ -68,9 +74,9 @@ def numbered(place: int) -> Style:
 class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
-    A default method of a command has a fixed colour and marker. Any other method gets the colour and the
-    marker that the fewest methods of the report use. If several colours or markers are equally rare, the name
-    of the method determines the choice.
+    The default methods (the methods in ``PICTURED``) have fixed colours and markers. Another method gets the
+    colour and the marker that occur least often in the report. If several colours or markers occur least
+    often, the name of the method determines the choice.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -87,7 +93,7 @@ class Styles:
                 self._places[name] = _free(self._places.values(), _digest(name))
 
     def of(self, label: str) -> Style:
-        """Return the style of the method or peer with a label.
+        """Return the style of the method or peer (other integrator) that ``label`` names.
 
         The label may begin with ``adaptive``. It may end with a remark in brackets: a target such as ``C``,
         or a form of the equations such as ``body momentum``.
@@ -104,7 +110,7 @@ class Styles:
 
 
 def method_name(label: str) -> str:
-    """Return the name of the method or peer in a label.
+    """Return the name of the method or peer (other integrator) that ``label`` contains.
 
     >>> method_name("adaptive ambient:dop853 (body momentum and unit quaternion)")
     'ambient:dop853'
@@ -120,8 +126,8 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return a dictionary that maps each default method to the indices of its colour and its marker.
 
-    Each tuple in ``PICTURED`` lists methods that may appear together in one picture. If possible, these
-    methods differ in colour and in marker.
+    The default methods are the methods in ``PICTURED``. Each tuple in ``PICTURED`` lists methods that may
+    appear together in one picture. If possible, the methods of a tuple have different colours and markers.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -134,9 +140,10 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    ``used`` and ``taken`` contain pairs (colour, marker). If several markers are equally rare, the function
-    prefers a marker whose pair with the chosen colour is neither in ``used`` nor in ``taken``. If several
-    colours or markers still remain, the number ``first`` determines the choice.
+    ``used`` and ``taken`` contain pairs (colour, marker). The function chooses the colour first, then the
+    marker. If several markers occur least often, the function prefers a marker that forms a new pair with
+    the colour. A pair is new if it is neither in ``used`` nor in ``taken``. If the choice is still open, the
+    number ``first`` determines it.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -1,9 +1,9 @@
 """Converts Matplotlib figures to SVG elements, with the colours and fonts of the page.
 
-Matplotlib draws with placeholder colours. They are then replaced by CSS variables, which have different
-values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers in the SVG are
-hashes of the data and of the name of the figure. Therefore equal figures have equal bytes, and two figures
-with different names have different identifiers.
+Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables, which
+have different values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers
+in the SVG are hashes of the data and of the name of the figure. Therefore the same data and the same name
+always give the same SVG. Two figures with different names have different identifiers.
 
 The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
 attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
@@ -36,9 +36,9 @@ PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
-"""The colours of the curves in light mode and in dark mode.
+"""SERIES_LIGHT lists the colours of the curves in light mode, and SERIES_DARK those in dark mode.
 
-Colour-blind readers can distinguish any two colours of the same mode.
+Colour-blind readers can distinguish any two colours of the same list.
 """
 
 LIGHT = {
@@ -48,8 +48,9 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable in a figure that is saved as a separate file. A value is a colour or a list
-of fonts. The figure has a white background.
+"""The value of each CSS variable in a figure that is saved as a separate file.
+
+A value is a colour or a list of fonts.
 """
 
 STYLE: dict[str, object] = {
@@ -115,9 +116,11 @@ def svg_element(figure: Figure, text: Text) -> Markup:
 
 
 def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
-    """Replace the identifiers of curves by the attributes ``data-series`` and ``data-key``.
+    """Return the SVG element ``drawn`` with the attributes that the script of the page uses.
 
-    The function also adds the texts ``values`` to the markers of each curve.
+    The function replaces the identifier ``series:k`` of the curve with the number k by the attribute
+    ``data-series``. It replaces the identifier ``key:k`` of the legend entry by the attribute ``data-key``.
+    ``values`` maps the number of a curve to the texts of its markers. The texts are added as titles.
     """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
@@ -130,7 +133,7 @@ def _with_titles(body: str, values: Sequence[str]) -> str:
     """Add a title to each marker of a curve. The titles are ``values``, in the order of the markers in the
     SVG.
 
-    ``body`` may also contain the markers of the legend. These markers come last and get no title.
+    ``body`` contains the markers of the curve. If markers of the legend follow, they get no title.
     """
     titles = iter(values)
 
