@@ -10,8 +10,8 @@ from codegen.ir.domain import Domain
 
 
 class Affine(MatrixGroup):
-    """Invertible affine maps y -> A y + b of R^n. Their matrices are the (n + 1) x (n + 1) block matrices
-    [[A, b], [0, 1]].
+    """The group of the invertible affine maps y -> A y + b, where y is in R^n. An element is the (n + 1) x
+    (n + 1) block matrix [[A, b], [0, 1]].
 
     Each basis element of the algebra is a matrix whose only non-zero entry is a 1 in one of the first n rows.
     The basis is ordered row by row.
@@ -23,9 +23,9 @@ class Affine(MatrixGroup):
         super().__init__(f"Aff({n})", basis)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations for the entries of the last row of g, as pairs of a text and a residual.
+        """Return one pair of a text and a residual for each entry of the last row of g.
 
-        For an element of the group, this row is (0, ..., 0, 1).
+        If g is an element of the group, the last row is (0, ..., 0, 1), and the residuals are zero.
         """
         *zeros, one = g[-self.n :]
-        return tuple(("the last row is (0, 1)", x) for x in (*zeros, one - d.rational(1)))
+        return tuple(("the last row is (0, ..., 0, 1)", x) for x in (*zeros, one - d.rational(1)))

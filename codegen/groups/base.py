@@ -1,19 +1,20 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars. An element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. The conventions
-are left actions, right trivialisation, and [A, B] = AB - BA (see :mod:`orderconds`).
+flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. Groups act
+from the left, tangent vectors are right-trivialised, and the bracket of matrices is [A, B] = AB - BA (see
+:mod:`orderconds`).
 
 The first argument d of each operation is a domain: it defines the type of the scalars and the functions of
-scalars (:mod:`codegen.ir.domain`). An operation uses ``+ - * /`` on the scalars, constants from
-``d.rational(p, q)`` and functions from ``d.call``. One implementation then works for floats, 40-digit
-numbers, power series in h, and the expressions from which code is emitted.
+scalars (:mod:`codegen.ir.domain`). An operation uses only ``+ - * /`` on the scalars, constants from
+``d.rational(p, q)`` and functions from ``d.call``. Therefore the same implementation works for floats,
+40-digit numbers, power series in the step size h, and the expressions from which code is emitted.
 
 To define a group, inherit :class:`LieGroup` and write its five abstract methods. These methods are enough for
 scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
 convergence tests. A scene with a Hamiltonian also needs the coadjoint action
-(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional. Some of them make
-emitted code shorter. Others are needed for further computations, such as the Jacobian of a step.
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional: they make emitted
+code shorter, or are needed for special computations such as the Jacobian of a step.
 :func:`codegen.groups.register` adds the class to the list of groups.
 """
 
@@ -51,8 +52,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. The names of the classical forms
-    of a scene contain this noun (:mod:`codegen.scene.classical_forms`).
+    """A noun for the coordinates of an element, such as ``unit quaternion``. A scene can be converted to
+    equations on R^n (:mod:`codegen.scene.classical_forms`). The names of these equations contain the noun.
     """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
@@ -73,15 +74,17 @@ class LieGroup(ABC):
         t) x).
 
         The formula must also be valid at x = 0, for all types of scalars. Therefore it must not divide by the
-        length of x. For example, write sin(r)/r with r = |x| as ``stumpff1(r^2)``.
+        length of x. For example, let r be the length of x. For sin(r)/r, use the function stumpff1 with
+        stumpff1(r^2) = sin(r)/r, which is also defined at r = 0.
         """
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric, and satisfy the Jacobi
-        identity.
+        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric. It must also satisfy the
+        Jacobi identity.
 
-        The sign is determined by exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
+        The product exp(h x) exp(h y) exp(-h x) exp(-h y) must be equal to exp(h^2 [x, y] + O(h^3)). This
+        condition determines the sign of the bracket.
         """
 
     @abstractmethod
@@ -148,7 +151,7 @@ class LieGroup(ABC):
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return :meth:`symbols` as a sympy column, for formulas of a scene."""
+        """Return the symbols of the coordinates as a sympy column, for formulas of a scene."""
         from sympy import Matrix
 
         return Matrix(self.symbols(name))

@@ -1,4 +1,4 @@
-"""Bernoulli sums: dexp^{-1} = sum over k of B_k/k! ad^k, truncated after a given power of ad."""
+"""The truncated series of dexp^{-1}_x: the sum of B_k/k! ad_x^k, where B_k are the Bernoulli numbers."""
 
 from __future__ import annotations
 

@@ -2,9 +2,9 @@
 
 A group declares a capability by inheriting the class of the capability. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``: the
-class of direct products inherits several capabilities, but a product has such a capability only if all its
-factors have it.
+returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``,
+because its result may be wrong for a direct product. The class of direct products inherits several
+capabilities, but a product has one of them only if all its factors have it.
 """
 
 from __future__ import annotations
@@ -32,10 +32,11 @@ ad_x, and v is a vector.
 
 
 class Coadjoint(LieGroup):
-    """The adjoint and coadjoint action. Hamiltonians on T*G and variational methods need this capability.
+    """The adjoint and coadjoint action. This capability is needed by variational methods, and by
+    scenes with a Hamiltonian on T*G.
 
-    g is an element of the group, x an element of the algebra, and mu an element of its dual. <mu, x> is the
-    dot product of coordinates.
+    The argument g is an element of the group, x is an element of the algebra, and mu is an element of the
+    dual of the algebra. The pairing <mu, x> is the dot product of the coordinates of mu and x.
     """
 
     provides: ClassVar[str] = "coadjoint action"
@@ -72,9 +73,9 @@ class Coadjoint(LieGroup):
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return the covector p with <p, v> = <mu, D v> for all v in the algebra.
 
-        D is the derivative of the map x -> dexpinv(x, y, order) at x. Let B_k be the Bernoulli numbers, and
-        let z_ik = ad_x^{k-1-i} y. Then p is the sum of -B_k/k! ad*_{z_ik} (ad*_x)^i mu over all i and k with
-        0 <= i < k <= order (eq. 3.16 of H. Marthinsen's thesis).
+        D is the derivative of dexpinv(x, y, order) with respect to x. Let B_k be the Bernoulli numbers, and
+        let z_ik = ad_x^{k-1-i} y. The covector p is the sum of the terms -B_k/k! ad*_{z_ik} (ad*_x)^i mu for
+        all i and k with 0 <= i < k <= order (eq. 3.16 of H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -91,7 +92,10 @@ class Coadjoint(LieGroup):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum of the product exp(x, n) (q, mu) in T*G."""
+        """Return the momentum of the product exp(x, n) (q, mu) in T*G, which does not depend on q.
+
+        The momentum is Ad*_{exp(-x)} mu + dexp*_{-x} n.
+        """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
         return tuple(a + b for a, b in zip(pushed, turned, strict=True))
@@ -123,7 +127,7 @@ class RightTrivialisation(LieGroup):
 class LeftTranslation(Coadjoint):
     """Left translations of velocities, and the equations of the group as replacement rules.
 
-    A scene needs this capability if its velocity or momentum is given in the body frame.
+    A scene needs this capability if it describes velocities or momenta in the body frame.
     """
 
     provides: ClassVar[str] = "left translation of velocities"
@@ -133,7 +137,7 @@ class LeftTranslation(Coadjoint):
         """Return the equations of the group as replacement rules.
 
         Each rule replaces a product of two coordinates by a polynomial that has the same value on the group.
-        ``q`` contains the symbols of all coordinates.
+        ``q`` contains the names of the coordinates of an element.
         """
 
     @abstractmethod
@@ -146,9 +150,9 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x), which advances g by a step x in the body frame.
+    """The product g exp(x). In this product, x is an element of the algebra in the body frame.
 
-    The compiler needs this capability to derive steps in the body frame.
+    The compiler needs this product if it derives an integrator in the body frame.
     """
 
     provides: ClassVar[str] = "body frame"
@@ -160,15 +164,17 @@ class BodyFrame(LeftTranslation):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1}, applied to a vector, is a
-    linear combination of a few brackets.
+    """Closed forms of functions of ad_x. The functions are products of exp, dexp and dexp^{-1}. When such a
+    product is applied to a vector, the result is a linear combination of a few brackets.
     """
 
     provides: ClassVar[str] = "closed form of functions of ad"
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x."""
+        """Return W(ad_x) v, where W is the product of the functions in ``word``. If ``dual`` is true, ad*_x
+        replaces ad_x.
+        """
 
     @abstractmethod
     def series_sum(
@@ -183,9 +189,9 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        A method may need the sum of f v, without W(ad_x), over some of the terms. If the function ``total``
-        is given, ``total(indices)`` returns this sum for the terms with the given indices. A caller passes
-        ``total`` if it knows a shorter formula for the sum.
+        Some groups compute sums of f v without the factor W(ad_x). If the function ``total`` is given, it
+        computes these sums: ``total(indices)`` returns the sum of f v over the terms with these indices. A
+        caller passes ``total`` if it knows a short formula for such sums.
         """
 
 
@@ -230,10 +236,10 @@ class Inverse(LieGroup):
 
 
 class CayleyMap(LieGroup):
-    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. The products in the
-    formula are products of matrices or of quaternions.
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. Here 1 is the
+    identity, and x is a matrix or a quaternion.
 
-    If the algebra contains x^3 for each of its elements x, the values of the Cayley map are in the group.
+    If the algebra contains x^3 for all elements x, then cay(x) is an element of the group.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -244,16 +250,17 @@ class CayleyMap(LieGroup):
 
     @abstractmethod
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2). This is equal to y - [x, y]/2 - x y x/4.
+        """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2). The expanded product is y - [x, y]/2 - x y x/4.
 
-        If x(t) satisfies x' = dcay^{-1}_x y, then g(t) = cay(x(t)) satisfies g' = y.g.
+        If x(t) satisfies x' = dcay^{-1}_x y, then g(t) = cay(x(t)) satisfies g' = y.g, where y.g is
+        defined by :meth:`velocity`.
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the product x y x.
 
-        It is computed as 4 y - 2 [x, y] - 4 dcay^{-1}_x y. A subclass may override this method by a formula
-        without cancellation.
+        The product is computed as 4 y - 2 [x, y] - 4 dcay^{-1}_x y. For small x, this formula loses digits by
+        cancellation. A subclass may override this method by a more accurate formula.
         """
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
@@ -261,10 +268,11 @@ class CayleyMap(LieGroup):
 
 
 class MatrixElements(MatrixRepresentation, Inverse):
-    """An element is an n x n matrix, as the tuple of its n^2 entries row by row. The matrices act on columns
+    """An element is the tuple of the n^2 entries of an n x n matrix, row by row. This matrix acts on columns
     of n scalars.
 
-    The result of :meth:`matrix` is the element itself, so velocity(x, g) is the matrix product hat(x) g.
+    The result of velocity(x, g) is the matrix product hat(x) g, because the coordinates of g are the entries
+    of its matrix.
     """
 
     provides: ClassVar[str] = "matrix elements"
@@ -309,11 +317,12 @@ class MatrixElements(MatrixRepresentation, Inverse):
 
 
 class Covered(LieGroup):
-    """The group is covered by the group ``cover``. Elements of the cover have fewer coordinates.
+    """The group has a covering group ``cover``. An element of the cover has fewer coordinates than an element
+    of the group.
 
-    The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. The text ``covering_formula`` describes the covering map in the header of emitted code. In this
-    text, q is an element of the cover, and g is the image of q in the group.
+    The covering map is a homomorphism and a local diffeomorphism. Therefore a differential equation on the
+    group can be solved on the cover. The text ``covering_formula`` describes the covering map in the header
+    of emitted code. In this text, q is an element of the cover, and g is the image of q in the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -341,15 +350,15 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element y of the algebra of the cover with dp(y) = x.
+        """Return the element y of the Lie algebra of the cover that satisfies dp(y) = x.
 
         Here dp is the derivative of the covering map at the neutral element.
         """
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the formulas of :meth:`lift`: one number for each formula. A formula is valid
-        for g if its pivot is positive.
+        """Return one number, the pivot, for each formula of :meth:`lift`. A formula is valid for g if its
+        pivot is positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
         rounding error.
@@ -370,11 +379,11 @@ class Rotations(MatrixElements):
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y. Some groups do not compute the matrix exp(x)."""
+        """Return exp(x) y for a column y. Some groups compute it without the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
-    """Elements act on the points of a vector space by maps that may be nonlinear."""
+    """Elements act on the points of a vector space. The action may be nonlinear."""
 
     provides: ClassVar[str] = "motion of points"
     point_size: int
@@ -382,7 +391,9 @@ class PointMotions(LieGroup):
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return g.z. The action satisfies move(g k, z) = move(g, move(k, z))."""
+        """Return g.z, the image of the point z under g. The method must satisfy move(g k, z) = move(g,
+        move(k, z)).
+        """
 
     @abstractmethod
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -397,8 +408,8 @@ class DirectProduct(LieGroup):
 
     @abstractmethod
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Return the coordinates of x in each factor. x is an element of the group, of the algebra, or of the
-        dual of the algebra.
+        """Return the coordinates of x in each factor. The argument x is an element of the group, of the
+        algebra, or of the dual of the algebra.
         """
 
 
@@ -413,17 +424,17 @@ class CotangentBundle(LieGroup):
 
     @abstractmethod
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return the image of a covector under the canonical bivector at z. The image is an element of the
-        algebra.
+        """Return the image of a covector under the canonical Poisson bivector of T*G at z. The image is an
+        element of the algebra.
 
-        If the covector is the right-trivialised differential of a Hamiltonian, the image is the Hamiltonian
-        field.
+        If the covector is the right-trivialised differential of a Hamiltonian, the image is the
+        right-trivialised Hamiltonian vector field.
         """
 
 
 class Projection(LieGroup):
-    """A projection onto the group. If coordinates nearly satisfy the equations of the group, their projection
-    satisfies the equations more accurately.
+    """A projection onto the group. It reduces the errors of coordinates that nearly satisfy the equations of
+    the group.
     """
 
     provides: ClassVar[str] = "projection onto the group"
@@ -442,8 +453,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return several sets of indices. For each set, the coordinates with these indices can be computed
-        from all other coordinates of the element.
+        """Return sets of coordinate indices. The coordinates in one set can be computed from the coordinates
+        outside this set.
         """
 
     @abstractmethod

@@ -19,7 +19,7 @@ EXPONENTIAL = "exp"
 """The name of the exponential map."""
 
 MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondKind())}
-"""The coordinate maps by name. The exponential map has no entry, because it has no :class:`CoordinateMap`."""
+"""The coordinate maps by name. For the exponential map there is no :class:`CoordinateMap` and no entry."""
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:

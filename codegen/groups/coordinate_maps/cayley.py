@@ -13,10 +13,13 @@ from codegen.ir.domain import Domain
 class Cayley(CoordinateMap):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
 
-    x is a matrix or a pure quaternion. Groups of matrices g with g^T J g = J for a fixed matrix J have this
-    map. More generally, the map exists on all groups whose algebra contains x^3 for each of its elements x.
-    On groups of orthogonal matrices the map is defined for all x. On other groups 1 - x/2 may be singular if
-    the step is long. In this case the step fails with the status TOO_FAR. Then use a shorter step.
+    The element x is a matrix or a pure quaternion, and 1 is the identity. The map exists on a group if the
+    algebra contains x^3 for all elements x. Examples are the groups of matrices g with g^T J g = J, where J
+    is a fixed matrix.
+
+    On groups of orthogonal matrices, cay(x) is defined for all x. On other groups, the matrix 1 - x/2 may be
+    singular for a long step of a method. This step fails with the status TOO_FAR, and a shorter step is
+    needed.
     """
 
     name = "cayley"
@@ -30,7 +33,7 @@ class Cayley(CoordinateMap):
                 where=where,
                 expected="a group whose algebra contains x^3 for each of its elements x, such as SO(3), S^3, "
                 "SL(2) or SE(3)",
-                hint='write coordinates="exp", or give the group the capability CayleyMap',
+                hint='write coordinates="exp", or inherit CayleyMap in the group class and write its methods',
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:

@@ -11,11 +11,12 @@ from codegen.ir.domain import Domain
 
 
 class SecondKind(CoordinateMap):
-    """The map tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
+    """The map tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_n e_n) for the basis e_1, ..., e_n of the algebra.
 
-    The differential is dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and
-    Marthinsen 2001). dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If a pivot of the
-    elimination is zero, the step fails with the status TOO_FAR. Then use a shorter step.
+    Let E_k = exp(x_k e_k). The differential dtau_x v is the sum of v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k for k =
+    1, ..., n (Owren and Marthinsen 2001). The inverse differential solves the linear system dtau_x v = y by
+    Gaussian elimination. If a pivot is zero, the step of the method fails with the status TOO_FAR, and a
+    shorter step is needed.
     """
 
     name = "second_kind"
@@ -28,14 +29,14 @@ class SecondKind(CoordinateMap):
         """Raise :class:`codegen.errors.SceneError` if the group has no adjoint map."""
         if group.offers(Coadjoint) is None:
             raise SceneError(
-                f"{group.name} has no adjoint map, which coordinates of the second kind need",
+                f"{group.name} has no adjoint map, but coordinates of the second kind need an adjoint map",
                 where=where,
                 expected="a group with an adjoint map",
-                hint='write coordinates="exp", or give the group the capability Coadjoint',
+                hint='write coordinates="exp", or inherit Coadjoint in the group class and write its methods',
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
-        """Return exp(x_1 e_1) ... exp(x_d e_d)."""
+        """Return exp(x_1 e_1) ... exp(x_n e_n), where n is the dimension of the algebra."""
         g = group.expbasis(d, 0, x[0])
         for k, t in enumerate(x[1:], start=1):
             g = group.mul(d, g, group.expbasis(d, k, t))
@@ -48,8 +49,8 @@ class SecondKind(CoordinateMap):
         """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Ad_{E_1}^-1 is applied to both sides of the system dtau_x v = y. The columns of the new matrix are
-        # e_1, e_2, Ad_{E_2} e_3, ..., so the first two pivots are 1.
+        # Let E_k = exp(x_k e_k). The inverse of Ad_{E_1} is applied to both sides of dtau_x v = y. The new
+        # matrix has the columns e_1, e_2, Ad_{E_2} e_3, ..., so its first two pivots are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]

@@ -211,7 +211,8 @@ def test_an_unknown_map_is_refused_by_the_names_of_the_known_maps():
 
 def test_second_kind_needs_an_adjoint_map():
     with pytest.raises(
-        SceneError, match=r"T.SO.3. has no adjoint map, which .* second kind need; expected a group with an"
+        SceneError,
+        match=r"T.SO.3. has no adjoint map, but .* need an adjoint map; expected a group with an",
     ):
         coordinate_map("second_kind", Cotangent(SO3()), "s")
 
