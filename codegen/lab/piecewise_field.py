@@ -67,8 +67,8 @@ A field with more continuous derivatives has this number, too.
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    There is one smooth field for each combination of cases. ``compiled`` stores the results of :meth:`on`. Its
-    keys are the combinations of cases.
+    There is one smooth field for each combination of cases. ``compiled`` stores the results of :meth:`on`.
+    The keys of ``compiled`` are combinations of cases.
     """
 
     scene: Problem
@@ -213,8 +213,8 @@ class Sided:
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
         # If a margin is zero at the beginning of the step, the step begins at an event. The root search would
-        # find this event again and not the next event. Therefore the caller must try a shorter step, which can
-        # end before the next event.
+        # find this event again and not the next event. Therefore the caller must try a shorter step.
+        # The shorter step can end before the next event.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
