@@ -1,9 +1,10 @@
 """Integrates a scene whose vector field is not smooth everywhere, with smooth fields between events.
 
 A selection is an operation with several cases, such as an absolute value or a table. In the code, a case is
-called a *side*. The field is smooth until the case of a selection changes (:mod:`codegen.ir.smoothness`).
-Each selection has a margin, a function that is positive while the current case applies. An event is a time at
-which a margin becomes zero. At an event, the integrator changes to the smooth field for the new case.
+called a *side*. As long as each selection remains in its case, the field is smooth
+(:mod:`codegen.ir.smoothness`). Each selection has a margin. This is a function of the state and the time that
+is positive while the current case applies. An event is a time at which a margin becomes zero. After an event,
+another case applies, and the integrator uses the smooth field for this case.
 """
 
 from __future__ import annotations
@@ -26,28 +27,29 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The case of a selection just after a time t is determined at the time t + AHEAD.
+"""The case that applies just after a time t is determined at the time t + AHEAD.
 
-A selection is an operation with several cases, such as an absolute value. At an event, the case of a
-selection changes. AHEAD is much larger than the error of the computed time of an event, and much smaller than
-the time scales of the solution.
+Here t is usually the computed time at which an operation, such as an absolute value, changes from one of its
+cases to another. AHEAD is much larger than the error of t, and much smaller than the time scales of the
+solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""The smooth fields before and after an event are compared at these two times after the event.
+"""The smooth fields before and after an event are compared NEAR[0] and NEAR[1] time units after the event.
 
-The comparison shows how many derivatives of the field are continuous at the event.
+At an event, the field changes from one smooth field to another. The comparison shows how many derivatives of
+the field are continuous at the event.
 """
 
 VANISHING = 1e-30
-"""Each selection (operation with several cases) has a margin: a number that is positive while its current
-case applies.
+"""A margin counts as zero if its absolute value is less than VANISHING.
 
-A margin counts as zero if its absolute value is less than VANISHING.
+Each selection (operation with several cases) has a margin. The margin is positive while the current case of
+the selection applies.
 """
 
 SUBSTEPS = 24
-"""The largest number of intermediate points of a step at which the integrator tests for an event.
+"""The largest number of points inside a step at which the integrator tests whether an event has occurred.
 
 At an event, an operation such as an absolute value changes from one of its cases to another.
 """
@@ -55,15 +57,18 @@ At an event, an operation such as an absolute value changes from one of its case
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives of the field that :meth:`PiecewiseField.beyond` counts."""
+"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns.
+
+A field with more continuous derivatives has this number, too.
+"""
 
 
 @dataclass(frozen=True)
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    There is one smooth field for each combination of cases. ``compiled`` maps a combination to the smooth
-    field and to the margins of the selections.
+    There is one smooth field for each combination of cases. ``compiled`` stores the results of :meth:`on`.
+    The keys of ``compiled`` are combinations of cases.
     """
 
     scene: Problem
@@ -84,11 +89,11 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return two functions of (state, t): a smooth field, and the margins of all selections.
+        """Return two functions of (state, t). The first is a smooth field, and the second returns margins.
 
         A selection is an operation with several cases, such as an absolute value. ``sides`` contains one case
-        of each selection. The smooth field uses these cases. The second function returns the margin of each
-        selection: a number that is positive while the case in ``sides`` applies.
+        of each selection, and the smooth field uses these cases. The second function returns one margin for
+        each selection. The margin is positive while the case in ``sides`` applies.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -114,11 +119,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the case of each selection after an event at (y, t), and a number that describes the event.
+        """Return the case of each selection after an event at (y, t), and the smoothness of the field there.
 
-        ``sides`` contains the cases before the event. The number states how many derivatives of the field are
-        continuous at the event. It is -1 if the field jumps. Raises :class:`SceneError` if the solution stays
-        on the boundary between the cases, because the field after the event points back across the boundary.
+        A selection is an operation with several cases. ``sides`` contains the cases before the event. The
+        smoothness is the number of continuous derivatives of the field, or -1 if the field jumps. Raises
+        :class:`SceneError` if the field after the event points back to the cases before the event.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -143,16 +148,19 @@ class PiecewiseField:
 
 
 Advance = Callable[..., tuple[Vector, float]]
-"""A function that makes one step: ``(field, y, t, length) -> (new state, error estimate)``."""
+"""A function of (field, y, t, length) that makes one step from the state y at the time t.
+
+It returns the new state and an error estimate.
+"""
 
 
 class Sided:
-    """The smooth field for the current cases of the selections, and the events up to the current time.
+    """A vector field, called as a function of (state, t), that uses the current case of each selection.
 
-    A selection is an operation with several cases. ``sides`` contains the current case of each selection. The
-    object can be called like a vector field, as a function of (state, t). For each event, ``kinks`` states
-    how many derivatives of the field of the scene are continuous at this event, or contains -1 if the field
-    jumps. ``points`` is a list of the pairs (state, t) at which the field was evaluated in the current step.
+    A selection is an operation with several cases. ``sides`` contains the current case of each selection. At
+    an event, the case of a selection changes. For each past event, ``kinks`` contains the number of
+    continuous derivatives of the field of the scene, or -1 if the field jumps. ``points`` is a list of the
+    pairs (state, t) at which the field was evaluated in the current step.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -168,23 +176,26 @@ class Sided:
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value of the smooth field at the state y and the time t, and add (y, t) to ``points``.
+        """Return the value of the field at the state y and the time t, and add (y, t) to ``points``.
 
-        The smooth field uses the current cases ``sides``.
+        Each operation with several cases uses its current case, which is in ``sides``.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margin of each selection: a number that is positive while the current case applies."""
+        """Return the margin of each selection, that is, of each operation with several cases.
+
+        A margin is positive while the current case of its selection applies.
+        """
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
         """Return True if the case of a selection changes in a step, that is, if a margin becomes negative.
 
         The step has the given length and leads from the state ``y`` at the time ``t`` to the state ``new``.
-        Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
-        was evaluated. For a very short step, only the end is tested.
+        The margins are tested at the end of the step. They are also tested at the points of the last
+        :data:`SUBSTEPS` evaluations of the field, if the step is longer than two shortest permitted steps.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -194,16 +205,16 @@ class Sided:
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
         """Find the first event in a step, and change to the cases that apply after the event.
 
-        A selection is an operation with several cases. Its margin is positive while the current case applies,
-        and becomes zero at an event. The step has the given length and begins at (y, t). Return the time and
-        the state of the event, or None if the caller must try a shorter step.
+        At an event, the case of a selection (an operation with several cases) changes. The step has the given
+        length and begins at (y, t). Return the time and the state of the event. If the event cannot be found
+        in this step, return None. The caller must then try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # If a margin is zero at the beginning of the step, the root search would find the previous event
-        # again. The caller then tries a shorter step. If the shorter step ends before the next event, no root
-        # search is needed.
+        # If a margin is zero at the beginning of the step, the step begins at an event. The root search would
+        # find this event again and not the next event. Therefore the caller must try a shorter step.
+        # The shorter step can end before the next event.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -228,9 +239,10 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return the time at which a margin is zero, by the Illinois variant of the false position method.
+    """Return a zero of the function ``margin``, by the Illinois variant of the false position method.
 
-    The margin has the value ``low`` > 0 at the time 0, and the value ``high`` < 0 at the time ``length``.
+    The argument of ``margin`` is the time since the beginning of a step of the given length. The value at the
+    beginning is ``low`` > 0, and the value at the end is ``high`` < 0.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

@@ -1,12 +1,14 @@
 """Reference solutions of scenes to 28 digits, by Gragg-Bulirsch-Stoer extrapolation.
 
-The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
-state y. The modified midpoint rule is applied to the coordinates of y. Its results are extrapolated in the
-squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. Two
-runs of different order and tolerance are made. The reference is accepted only if their final states agree.
-The uncertainty is the largest difference between a coordinate of one final state and the same coordinate of
-the other.
+In the differential equation, the derivative of the state y is the action of the Lie algebra element f(y) on
+y. The modified midpoint rule is applied to the coordinates of y. The results of this rule are extrapolated in
+the squared step size (Hairer, Norsett and Wanner I, section II.9).
+
+The reference uses no group exponential and no code of a method. An error in an exponential or in a method
+therefore cannot change the reference, and a comparison shows the error.
+
+The equation is solved twice, with different order and tolerance. The reference is accepted only if the two
+final states agree. The uncertainty is the maximum norm of their difference.
 """
 
 from __future__ import annotations
@@ -34,13 +36,13 @@ DIGITS = 50
 """
 
 BITS = 200
-"""Working precision in bits of the Arb balls, which is about ten decimal digits more than :data:`DIGITS`."""
+"""The working precision of the Arb balls in bits. 200 bits are about 60 decimal digits."""
 
 RUNS = ((14, -33), (16, -36))
-"""The settings of the two runs of a reference solution. Each run has a pair of settings (columns, e).
+"""The settings of the two runs of a reference solution: one pair (columns, e) for each run.
 
-The extrapolation table has this number of columns, and the tolerance is 10^e. The second run gives the
-result, and the first run checks it.
+``columns`` is the number of columns of the extrapolation table, and 10^e is the tolerance. The second run
+gives the result. The first run is used only to check this result.
 """
 
 AGREEMENT = 1e-28
@@ -154,8 +156,9 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Make one run with step-size control. Return the final state, and ``kinks`` as in :class:`Reference`.
+    """Solve the equation of a scene once with step-size control. Return the final state and the kinks.
 
+    The kinks have the form of the attribute ``kinks`` of :class:`Reference`.
     ``columns`` is the number of columns of the extrapolation table. The tolerance is 10^``exponent``.
     SceneError is raised if ``time.monotonic()`` exceeds ``finish`` during the run.
     """
@@ -171,10 +174,10 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
 def _integrate(
     scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
 ) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the time span, and ``kinks`` as in :class:`Reference`.
+    """Return the state at the end of the time span, and the kinks (see :class:`Reference`).
 
     ``y`` is the initial state. Its coordinates are balls of radius zero. SceneError is raised if
-    ``time.monotonic()`` exceeds ``finish`` during the run.
+    ``time.monotonic()`` exceeds ``finish`` during the computation.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -216,8 +219,8 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^p with p = 2 * columns - 1. The step is therefore
-        # multiplied by about (tolerance * size / error)^(1/p).
+        # The error estimate is proportional to step^p with p = 2 * columns - 1. Therefore the largest
+        # permitted step is step * ratio. The factor 0.9 makes the step a little shorter.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
@@ -235,8 +238,8 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step from ``y`` at time ``t``, and an estimate of its error.
 
-    The extrapolation table has ``columns`` rows and columns. The last entry of its last row is the new state.
-    The error estimate is the largest difference of a coordinate between this entry and the entry before it.
+    The extrapolation table has ``columns`` rows and ``columns`` columns. The last entry of the last row is
+    the new state. The estimate is the maximum norm of the difference of the last two entries of this row.
     Raises ArithmeticError if the field cannot be evaluated at one of the intermediate states.
     """
     slope = field(y, t)
@@ -255,9 +258,11 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Make ``n`` substeps of the explicit midpoint rule, each of length ``step / n``. Return the new state.
+    """Divide one step into ``n`` equal substeps, and return the state after the last substep.
 
-    The first substep is an Euler step. ``n`` is even. ``slope`` is the derivative at the state ``y``.
+    The first substep is an Euler step, and all later substeps use the explicit midpoint rule. ``slope`` is
+    the derivative at the state ``y``. ``n`` must be even, so that the error has an expansion in powers of the
+    squared step size.
     """
     h = step / n
     twice = 2 * h

@@ -37,7 +37,7 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add a measurement at the end of the list, and return its class.
+    """Add the class of a measurement at the end of the list of measurements. Return the class unchanged.
 
     The function can be used as a class decorator. Raises InputError if another measurement has the same name.
     """
@@ -71,10 +71,10 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the measurements with these names, and the measurements that belong to one of them.
+    """Return the measurements whose name or whose attribute ``part_of`` is in ``names``.
 
-    A measurement belongs to the measurement that its attribute ``part_of`` names. If ``names`` is empty,
-    return all measurements. Raises :class:`UnknownName` for an unknown name.
+    ``part_of`` is the name of a larger measurement. If ``names`` is empty, all measurements are returned.
+    Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]

@@ -104,11 +104,11 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
     """Measure all scenes and write the pages into a folder.
 
     Returns the path of the overview page, and the results of each scene. The page of a scene is written as
-    soon as the scene is measured. A hidden subfolder stores results during the report, so that an interrupted
-    report can continue. If there is one scene, ``progress`` is called with a text before each measurement. If
-    there are several scenes, it is called with the name of each finished scene. :class:`InputError` is raised
-    if a name is unknown, if there is no C compiler, or if the folder cannot be written to. These conditions
-    are checked before the first measurement.
+    soon as the scene is measured. Results are also stored in a hidden subfolder until the report is complete.
+    An interrupted report can therefore continue. For one scene, ``progress`` is called with a text before
+    each measurement. For several scenes, ``progress`` is called with the name of each finished scene. Before
+    the first measurement, :class:`InputError` is raised if a name is unknown, if there is no C compiler, or
+    if the folder cannot be written to.
     """
     folder = Path(directory)
     request.check()
@@ -148,8 +148,8 @@ def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
 def write_file(path: Path, text: str | None) -> Path:
     """Write a file completely or not at all, and return its path.
 
-    If ``text`` is None, no file is written. The function then only tests whether the folder can be written
-    to. Raises InputError if the file or the folder cannot be written.
+    If ``text`` is None, the function only tests whether files can be written into the folder of ``path``.
+    Raises InputError if the write or the test fails.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -28,7 +28,7 @@ INTERPRETER = "interpreter"
 """The name that selects the interpreter in place of a target such as C or Python."""
 
 DOUBLE = 16
-"""The interpreter uses doubles if at most this number of decimal digits is requested."""
+"""The largest number of decimal digits for which the interpreter computes with doubles."""
 
 
 class RunFailed(ArithmeticError):
@@ -40,9 +40,10 @@ class RunFailed(ArithmeticError):
 
 @dataclass
 class Interpreted:
-    """A runner that interprets the optimised program of a step, in arithmetic with ``digits`` decimal digits.
+    """A runner that interprets the optimised program of a step.
 
-    If ``digits`` is at most 16, doubles are used.
+    If ``digits`` is at most 16, the arithmetic uses doubles. Otherwise it uses mpmath numbers with ``digits``
+    decimal digits.
     """
 
     compiled: Optimised
@@ -135,14 +136,15 @@ class Emitted:
 
     @cached_property
     def integrator(self) -> Integrator:
-        """The loaded module, with functions that make steps and runs."""
+        """The loaded module. One of its functions makes a single step, and another makes many steps."""
         return load(self.artifact)
 
     @cached_property
     def observed(self) -> Emitted:
         """A runner of the same method whose module can also return the solutions of the implicit equations.
 
-        The module is emitted for the target that :func:`codegen.printers.observable` returns.
+        For some targets, such a module cannot be emitted. The target of this runner may therefore differ from
+        ``self.target``.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 
@@ -154,7 +156,7 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
-        The numbers of iterations for implicit equations are added to ``statistics``. Raises
+        ``statistics`` records how many iterations the solution of implicit equations takes. Raises
         :class:`RunFailed` if a step fails.
         """
         first, last = self.compiled.scene.span
@@ -184,7 +186,7 @@ def check_target(target: str, digits: int = DOUBLE) -> None:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
     if digits > DOUBLE and target != INTERPRETER:
         raise MethodError(
-            f"{digits} digits for the target {target}",
+            f"the target {target} cannot compute with {digits} digits",
             expected=f"at most {DOUBLE} digits, because emitted code uses double precision",
             hint="add --target interpreter",
         )
@@ -198,7 +200,7 @@ def runner(
     ``target`` is the name of a target such as ``c``, or ``interpreter``. ``digits`` is the number of decimal
     digits of the arithmetic. More than 16 digits require the interpreter. ``order`` is the order of the
     method, if the caller already knows it. Raises :class:`codegen.errors.MethodError` if the target is
-    unknown, or if it cannot compute with this number of digits.
+    unknown, or if the target cannot compute with ``digits`` digits.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -32,10 +32,10 @@ STEP_LIMIT = 10**7
 class Path:
     """The states of a run at its output times. A figure shows these states.
 
-    Each row of ``states`` contains a state, and ``times`` contains the output times. A run can have a
-    sweep over a parameter: the run is then repeated with several values of the parameter. In this case
-    ``states`` contains the final states, and ``times`` contains the values of the parameter. ``failure`` is
-    the reason why the run ended early, or '' if all steps succeeded.
+    Each row of ``states`` contains a state, and ``times`` contains the output times. A run with a sweep is
+    repeated with several values of a parameter. For such a run, ``states`` contains the final states, and
+    ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended early, or ''
+    if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -65,7 +65,7 @@ class Source:
         return self._problems[run.scene]
 
     def artifact(self, run: Run) -> Artifact:
-        """Return the emitted module for a run. It is emitted when it is first needed."""
+        """Return the emitted module for a run. The first call emits this module, and later calls reuse it."""
         key = _key(run)
         if key not in self._artifacts:
             self.progress(f"{self.problem.name}, {run.name}: compiling")
@@ -78,7 +78,7 @@ class Source:
         return self._artifacts[key]
 
     def integrator(self, run: Run) -> Integrator:
-        """Return the loaded module for a run. It is loaded when it is first needed."""
+        """Return the loaded module for a run. The first call loads this module, and later calls reuse it."""
         key = _key(run)
         if key not in self._integrators:
             self._integrators[key] = load(self.artifact(run))
@@ -103,8 +103,9 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        If the run is repeated with several values of a parameter (a sweep), ``value`` is one of these values.
-        The parameter can be the step size. Raises :class:`codegen.integrator.StepFailed` if a step fails.
+        A run with a sweep is repeated with several values of a parameter, which can be the step size. For
+        such a run, ``value`` is the value of the parameter. Raises :class:`codegen.integrator.StepFailed` if
+        a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -155,9 +156,10 @@ class Source:
 def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
     """Return a function that evaluates quantities of a scene at many states.
 
-    A quantity is a formula or the name of an invariant. The function has two arguments: an array of states
-    and an array of times. Each row of the array of states contains the values of one coordinate. Raises
-    :class:`codegen.errors.SceneError` for a formula with an unknown symbol.
+    A quantity is a formula or the name of an invariant. The returned function has the arguments ``states``
+    and ``times``, which are arrays. Each row of ``states`` contains the values of one coordinate. Each row of
+    the result contains the values of one quantity. :class:`codegen.errors.SceneError` is raised for a formula
+    with an unknown symbol.
     """
     import sympy
 
@@ -201,7 +203,10 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter that the sweep of a run changes, or [] if the run has no sweep."""
+    """Return the values of the parameter for which a run with a sweep is repeated.
+
+    If the run has no sweep, the result is [].
+    """
     sweep = run.sweep
     if sweep is None:
         return []

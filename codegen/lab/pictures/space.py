@@ -66,8 +66,8 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # Four edges are parallel to each coordinate axis. One of them is labelled: the leftmost edge if the
-        # edges are steep, and the lowest edge if they are flat.
+        # Of the four edges that are parallel to axis k, one edge gets the label. If the four edges are steep,
+        # this is the leftmost edge. Otherwise it is the lowest edge.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)

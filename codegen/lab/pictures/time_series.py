@@ -1,8 +1,9 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the first quantity is also evaluated along the reference run. If the
-attribute ``difference`` of the figure is True, these values are subtracted from all quantities. Otherwise
-they are drawn as a separate line.
+If the figure has a reference run, the first quantity is also evaluated along the reference run. The results
+are called the reference values here. If the attribute ``difference`` of the figure is True, the reference
+values are subtracted from the values of every quantity. Otherwise the reference values are drawn as a
+separate line.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ONE, SEVERAL = 3.4, 1.7
-"""Height in inches of a single panel, and of each of several panels."""
+"""The height of a panel in inches. ONE applies to a picture with one panel, and SEVERAL to all others."""
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:
@@ -79,7 +80,10 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times in the time interval that the figure shows, and the values at these times."""
+    """Return the part of ``times`` in the time interval of the figure, and the values at these times.
+
+    ``row`` contains one value for each of the ``times``.
+    """
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
     return times[shown], row[shown]

@@ -35,7 +35,8 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # If an angle jumps by a full turn, a NaN is inserted, which interrupts the line at this point.
+        # If an angle changes by more than pi between two points, a NaN is inserted between these points.
+        # Matplotlib interrupts a line at a NaN.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)
@@ -75,8 +76,8 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
     """Return the points of a grid in the plane of the two angles, and the states at these points.
 
-    The first result contains two arrays, one for each angle. Each row of the second result contains one
-    coordinate of all states.
+    The points are returned as two arrays, one for each angle. The states are returned as one array. Each row
+    of this array contains the values of one coordinate.
     """
     import sympy
 
