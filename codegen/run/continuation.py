@@ -72,7 +72,10 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step. The attributes are variables of this function."""
+    """Builds the emitted function that repeats a failed step.
+
+    The class attributes are variables of this function.
+    """
 
     # All steps of the continuation are fractions of h. ``solved`` is the largest fraction that succeeded,
     # ``part`` is the current fraction, and ``factor`` is the ratio of two consecutive fractions.

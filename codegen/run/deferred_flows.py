@@ -166,7 +166,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # The last flow has its own duration, because it is not joined to the first flow of a next step.
+            # No step follows, so the last flow is a separate flow. Its duration is ``last`` times h.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
