@@ -40,8 +40,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # Compilers may make a special copy of a function for a constant argument. Therefore the step size
-        # zero is written as ``0 * h``, which is not a constant.
+        # For a constant argument, a compiler may add a second copy of the function to the program. The
+        # product ``0 * h`` is not a constant and avoids this copy.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -53,19 +53,20 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments that follow the step size in the call of the function that makes a step."""
+    """Return the arguments that a step function has after the step size."""
     # The step of size zero is only a test, so the statistics of the caller do not count it.
     counted = tuple(absent(x) for x in plan.counted)
-    # A step that is composed of substeps has no argument for an error estimate.
+    # The test needs no error estimate. A step that consists of substeps has no argument for an estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
 
 
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
-    """Return the statement that calls the function ``cause`` if the status is NOT_FINITE.
+    """Return a list with the statement that calls the function ``cause`` if the status is NOT_FINITE.
 
-    The result of the call is the new status: TOO_FAR or NOT_FINITE. The list is empty if the emitted code has
-    no function ``cause``. The failed step has the size ``h`` and begins at the time ``t`` and at ``state``.
+    The result of the call is the new status: TOO_FAR or NOT_FINITE. If the emitted code has no function
+    ``cause``, the list is empty. The failed step has the size ``h`` and begins at the time ``t`` and at
+    ``state``.
     """
     if not is_searched(plan):
         return []

@@ -1,12 +1,13 @@
-"""Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
+"""Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-The first attempt repeats the step without the solutions of earlier steps, because they are bad initial
-guesses if the motion has changed. Then the step is halved until its equations converge. After the first
-success, each solution is the initial guess for a longer step. The ratio of two consecutive step sizes is
-increased after a success and reduced after a failure.
+The continuation is used if the equations of a step cannot be solved. The first attempt repeats the step
+without the solutions of earlier steps, because they are bad initial guesses if the motion has changed. Then
+the step is halved until an attempt succeeds. After the first success, each solution is the initial guess for
+a longer step. The ratio of two consecutive step sizes is increased after a success and reduced after a
+failure.
 
-The equations of a long step may have several solutions. The result is the solution that depends continuously
-on h down to h = 0.
+The equations of a long step may have several solutions. The continuation finds the solution that changes
+continuously if h increases from 0.
 """
 
 from __future__ import annotations
@@ -71,7 +72,10 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step. Its variables are attributes of this class."""
+    """Builds the emitted function that repeats a failed step.
+
+    The class attributes are variables of this function.
+    """
 
     # All steps of the continuation are fractions of h. ``solved`` is the largest fraction that succeeded,
     # ``part`` is the current fraction, and ``factor`` is the ratio of two consecutive fractions.
@@ -92,10 +96,9 @@ class _Continuation:
         # The continuation stores its solution in the memory of the run. The solution is the initial guess of
         # the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of length zero is not repeated, because no step is shorter.
+        # A step of size zero cannot be shortened. It leaves the state unchanged, so only the state is tested.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # The loop ends if ``factor`` is near 1, because the step size then hardly grows. The equations of the
-        # full step then probably have no solution that depends continuously on the step size.
+        # If ``factor`` is near 1, the step size hardly grows, so the loop ends.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -108,7 +111,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` has this value before the first failed attempt.
+            # ``failure`` is NOT_CONVERGED until an attempt fails.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -117,13 +120,13 @@ class _Continuation:
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
             # The stored solutions belong to steps of different lengths, so a polynomial through them would be
-            # a bad initial guess. With ``known`` = 1 the next step uses only the last solution.
+            # a bad initial guess. If ``known`` is 1, the next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
         )
         part = "substep" if plan.parts else "step"
-        # With substeps, only the failed substep is repeated.
+        # If a step consists of substeps, the function repeats only the substep that failed.
         about = (
             f"Repeat a {part} whose equations did not converge. The first attempt ignores the solutions of "
             "earlier steps, because they are bad initial guesses if the motion has changed. Then shorter "
@@ -134,8 +137,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        It is TOO_FAR if the last failed attempt computed a number that is not finite and a shorter step
-        succeeded. Otherwise it is the status of the last failed attempt.
+        This is the status of the last failed attempt. For kernels without run-time inputs, there is one
+        exception: if a shorter step succeeded, NOT_FINITE is replaced by TOO_FAR.
         """
         # Run-time inputs depend on the time, so a shorter step reads other values of the inputs. The success
         # of a shorter step therefore does not show that h is too large.
@@ -145,11 +148,14 @@ class _Continuation:
         return select(too_far, code(TOO_FAR), self.failure)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step. The initial guess is the last solution that was found."""
+        """Return the statements that try one step.
+
+        If an earlier attempt succeeded, the initial guess is the solution of the last successful attempt.
+        """
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The rate of convergence depends on the step size, so the stored rates are set to 1. A loop then ends
-        # after one sweep only if the unknowns change by no more than rounding errors.
+        # The stored rates of convergence belong to another step size, so they are set to 1. With the rate 1,
+        # a loop can end after its first sweep only if the change of the unknowns is a rounding error.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -157,7 +163,8 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # The error estimate is omitted, because runs that read it use no continuation in h.
+        # The error estimate is omitted. Only runs with step-size control read it, and these runs do not use
+        # the continuation.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.
@@ -169,7 +176,10 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next fraction of h, or end the loop after full success."""
+        """Return the statements that follow an attempt.
+
+        If the full step has succeeded, they end the loop. Otherwise they choose the next fraction of h.
+        """
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
@@ -184,8 +194,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, ``part`` is halved. ``solved`` is then 0. Later, ``solved`` is the
-            # largest fraction of h that succeeded, and ``part`` is ``factor`` times ``solved``.
+            # Before the first success, ``solved`` is 0, and ``part`` is halved after each attempt. After the
+            # first success, ``part`` is ``factor`` times ``solved``.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             # ``part`` is at most 1. If it is 1, the next attempt makes the full step.
             Assign(part, select(part < 1.0, part, 1.0)),

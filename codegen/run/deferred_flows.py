@@ -6,8 +6,8 @@ deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
 A state is complete only after the deferred flows have been applied. They are applied before a state is
 written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. Only
-complete states are tested. A NaN remains in the state, so the test also finds a NaN from an earlier step. The
-run is then repeated, and every step applies all flows, to find the last finite state.
+complete states are tested. A NaN remains in the state, so the test also finds a NaN from an earlier step. If
+the test fails, the run is repeated, and every step applies all flows. This finds the last finite state.
 """
 
 from __future__ import annotations
@@ -58,8 +58,8 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a run.
-- FINISH applies the flows that commute with all other flows of the step.
+- BEGIN applies the first flow of a step. It is not called if the previous step has already applied this flow.
+- FINISH applies the flows that commute with all other flows of the method.
 - COMPLETE makes one step and defers no flow.
 """
 
@@ -68,10 +68,10 @@ LATE = count("late")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return all functions of a unit with deferred flows. The public functions come last."""
+    """Return all functions of the emitted code. The public functions come last."""
     deferred = plan.kernel.deferred
     assert deferred is not None
-    sequence = [_core(plan, ADVANCE, "One step without the deferred flows.")]
+    sequence = [_core(plan, ADVANCE, "Apply all flows of one step except the deferred flows.")]
     if deferred.begin is not None:
         sequence.append(
             _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
@@ -90,7 +90,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # The kernels of deferred flows are explicit, so the limit ``tries`` of a continuation is not needed.
+    # The kernels of deferred flows have no implicit equations. Their plans therefore need no continuation.
     return Plan(kernel, plan.format)
 
 
@@ -98,25 +98,27 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # A NaN or an infinity remains in the state. The callers test the state after all deferred flows have been
-    # applied.
+    # The callers test the state later, when they have applied all deferred flows. A NaN or an infinity is
+    # still in the state at that time.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # The durations LEAD and ELAPSED are always the last arguments, so that all functions have the same order
-    # of arguments.
+    # In the argument lists of all functions, the durations LEAD and ELAPSED come last.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
 def _read(plan: Plan) -> tuple[Term, ...]:
-    """Return the scalar arguments (time, step size, parameters, durations) that a kernel reads."""
+    """Return the scalar arguments that the kernel of ``plan`` reads, for example the time."""
     return plan.read(_scalars(plan))
 
 
 class _Deferring:
-    """Builds the public functions ``step`` and ``run``. The attributes are variables of these functions."""
+    """Builds the public functions ``step`` and ``run``.
+
+    The class attributes are variables of the emitted functions.
+    """
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
     # applied after the step. ``begun`` is True if the first flow of the step has already been applied, as a
@@ -138,9 +140,9 @@ class _Deferring:
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the statement that calls the function ``name``, which applies ``kernel`` to the state.
+        """Return a list that contains the call of the function ``name``.
 
-        The list is empty if ``kernel`` is None.
+        The function applies ``kernel`` to the state. If ``kernel`` is None, the list is empty.
         """
         if kernel is None:
             return []
@@ -164,7 +166,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # No other step follows, so the last flow is not lengthened by the first flow of a next step.
+            # No step follows, so the last flow is a separate flow. Its duration is ``last`` times h.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -188,13 +190,13 @@ class _Deferring:
     def run(self) -> Function:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
-        # A run without steps reads neither the step size nor the state, so they need not be finite.
+        # The step size and the state are tested only if there are steps.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
         # If the initial state is not finite, every attempt would fail, so no step is made.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # ``asked`` begins with the value of STEPS. If a step fails, ``asked`` is reduced.
+            # The run shall make STEPS steps. If a step fails, the number ``asked`` is reduced.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -203,7 +205,7 @@ class _Deferring:
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
             # There are at most three attempts. The first attempt defers flows. If it fails, the second
-            # applies all flows in every step and counts the good steps. The third makes only these steps.
+            # applies all flows in every step and finds the step that fails. The third ends before this step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             # If a step failed, ``asked`` is now the number of steps before it. The failed step therefore
@@ -261,8 +263,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If ``stop`` is False, the last flow of this step and the first flow of the next step are
-                # joined. The duration of the joined flow is ``later`` times h.
+                # If ``stop`` is True, the last flow of this step has the duration ``last`` times h. Otherwise
+                # it is joined to the first flow of the next step, and the duration is ``later`` times h.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

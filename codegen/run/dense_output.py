@@ -1,7 +1,7 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
-One function computes the coefficients of the extension, which costs about as much as a step. Another function
-computes the state at a time inside the step. It evaluates a polynomial and applies one exponential.
+The function EXTEND computes the coefficients of the extension. Its cost is about the cost of a step. The
+function EXTENDED evaluates a polynomial and applies one exponential. The result is a state inside the step.
 """
 
 from __future__ import annotations
@@ -13,7 +13,12 @@ from codegen.run.plan import Plan
 from codegen.run.terms import Term, count, real, value, whole
 
 EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
-"""The names of the functions of a continuous extension."""
+"""The names of three emitted functions of a continuous extension.
+
+- EXTEND computes the coefficients of the extension.
+- MOVED applies an exponential to a state.
+- EXTENDED computes the state at a time inside the step.
+"""
 
 
 class DenseOutput:
@@ -41,7 +46,7 @@ class DenseOutput:
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:
-        """Return the emitted function that computes the coefficients of the extension of a step."""
+        """Return the emitted function that computes the coefficients of the polynomial in theta."""
         own, state = self.own, self.plan.state()
         body: list[Statement] = [
             *sampled(own),
@@ -60,12 +65,13 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
-        # The coefficient of theta^(p + 1) has m coordinates. Coordinate i has the index i + p m in the array.
+        # The coefficient of theta^(p + 1) has m coordinates. In the array ``powers``, coordinate i of this
+        # coefficient has the index i + p * m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
         # The coordinates are a polynomial in theta without a constant term, because they are zero at the
         # beginning of the step. Therefore the result of Horner's rule is multiplied by theta once more.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The function MOVED expects the state and the coordinates x in one array.
+        # The array ``pair`` is the argument of MOVED. It contains the state and then the coordinates.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),
@@ -89,5 +95,8 @@ class DenseOutput:
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call for the state at the fraction ``theta`` of a step that begins with ``state``."""
+        """Return the call that computes the state at the fraction ``theta`` of a step.
+
+        The step begins with ``state``.
+        """
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

@@ -1,7 +1,7 @@
-"""An executor of the run representation (:mod:`codegen.run.language`) for any kind of ordered numbers.
+"""An executor of the run representation (:mod:`codegen.run.language`) for many kinds of numbers.
 
-It executes the statements of the emitted code. Their numbers and operations are those of a number domain, for
-example floats or exact numbers (:mod:`codegen.ir.domain`). Each function is compiled to Python closures once.
+It executes the statements of the emitted code with the numbers of a number domain (:mod:`codegen.ir.domain`),
+for example floats or exact numbers. It must be possible to compare the numbers.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -78,7 +78,7 @@ class Machine:
     - A cell, through which a function returns a value, is a list of one entry.
     - Records are created by :meth:`record`.
     - Absent arguments are None.
-    - Run-time inputs are given as a function of time that returns the sequence of their values.
+    - The argument for the run-time inputs is a function of time. It returns the values of all inputs.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -88,14 +88,14 @@ class Machine:
             # The entries are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # Identifiers are only keys of a dictionary here. Therefore the list of reserved words is empty.
+        # Here the identifiers are keys of a dictionary, so every word is a valid identifier.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
 
     def number(self, x: float) -> Any:
-        """Convert a float to a number of the number domain ``self.domain``."""
-        if not math.isfinite(x):  # exact numbers include neither infinity nor NaN
+        """Convert a float to a number of the domain. An infinity or a NaN is returned unchanged."""
+        if not math.isfinite(x):
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
@@ -118,7 +118,7 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags are Python integers in every domain, because the index of a list is an integer.
+        # Counts and flags are Python integers in every domain.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
@@ -136,9 +136,10 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function that an arithmetic error has interrupted: NOT_FINITE or NaN.
+        """Return the result of a function in which an arithmetic error has occurred.
 
-        If the result is NaN, the arrays that the function changes are also filled with NaNs.
+        If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and the
+        arrays that the function changes are filled with NaNs.
         """
         # Where IEEE arithmetic computes an infinity or a NaN, exact numbers and mpmath numbers raise an
         # exception.
@@ -153,8 +154,8 @@ class Machine:
 
 
 def is_number(x: Any) -> bool:
-    """Return True if a number of any domain is neither infinite nor NaN."""
-    # For an infinity or a NaN, ``x - x`` is NaN. Every domain has a subtraction.
+    """Return True if the number ``x`` is neither infinite nor NaN."""
+    # For an infinity or a NaN, ``x - x`` is NaN. This test works in every domain.
     return bool(x - x == 0)
 
 
@@ -247,7 +248,7 @@ class _Compiler:
         return run
 
     def assign(self, target: Term, value: Term) -> Action:
-        """Return the action that assigns to a variable, an entry, a part, a field or a record."""
+        """Return the action that assigns a value, for example to a variable or to an entry of an array."""
         if value.op == "fresh":
             # Several functions may refer to the same record, so its fields are cleared in place.
             record, machine = self.term(target), self.machine
@@ -307,14 +308,13 @@ class _Compiler:
                 return False
 
             return sample
-        # The library function is looked up only once, and not again at each call of the closure.
+        # The library function is looked up here, once, because a search at each call would be slow.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # If the function has no result, ``results`` is [None] and ``stores`` is empty, so nothing is
-            # stored.
+            # If the function has no result, ``results`` is [None], and ``stores`` is empty.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -370,7 +370,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return the closure that evaluates an entry, part or field, or an operation on whole arrays."""
+        """Return the closure that evaluates a term, for example an entry or a field."""
         first = args[0]
         match term.op:
             case "item":
@@ -414,7 +414,7 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact numbers have no negative zero, so the comparison with zero gives the sign.
+                # The sign of zero is taken to be positive, because exact numbers have no negative zero.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -447,18 +447,18 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power of x. As in C, a negative power of zero is infinite, and the power 0 of zero is 1."""
+    """Return a power of ``x``. As in C, a negative power of 0 is infinite."""
     if not x and exponent != 0:
         return math.inf if exponent < 0 else x
     return x**exponent
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a Python function that computes the results of ``function``, or None if there is none."""
+    """Return a Python function for a library function. Return None if ``function`` is no library function."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # Executing the emitted statements of a vector function one by one would be slow.
+        # The domain computes all results together. Execution of the emitted statements would be slow.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
@@ -473,7 +473,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix (a flat list) by its inverse and return 1. Return 0 if the matrix is singular."""
     import numpy
 
-    # The operations have the same order as in the emitted code, so that doubles agree in every bit.
+    # The operations have the same order as in the emitted code, so the results are equal for doubles.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []
@@ -493,7 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
-        # If rows i and j of a matrix are exchanged, columns i and j of its inverse are exchanged.
+        # For each exchange of two rows above, the same two columns of the inverse are exchanged.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()
