@@ -1,7 +1,7 @@
 """Matrix groups that are given by a basis of their Lie algebra.
 
-In general, the matrix exponential is computed by a vector function (:mod:`codegen.ir.vector_function`). Let L be the
-derivative of the exponential at a matrix x in the direction of a matrix y. Then dexp_x y = L exp(-x).
+In general, the matrix exponential is computed by a vector function (:mod:`codegen.ir.vector_function`). Let L
+be the derivative of the exponential at a matrix x in the direction of a matrix y. Then dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
