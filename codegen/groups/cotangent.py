@@ -1,4 +1,4 @@
-"""T*G = G x g* as a Lie group: the magnetic extension of G."""
+"""The cotangent bundle T*G of a Lie group G as a Lie group. Its elements are pairs (g, mu)."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle, Projection, Inverse):
-    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
-    coordinates of mu.
+    """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
+    coordinates of mu. This group is the magnetic extension of G (Arnold and Khesin I.10.B).
 
-    A field f(q, mu) = (xi, n) gives the equations q' = xi.q and mu' = n - ad*_xi mu, that is z' = f(z).z
-    (Arnold and Khesin I.10.B; eq. 2.27 of H. Marthinsen's thesis). :class:`SceneError` is raised if G has no
-    coadjoint action.
+    An element of the algebra is a pair (xi, n). A field f with f(q, mu) = (xi, n) gives the equations
+    q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis). Here xi.q is the derivative of
+    exp(eps xi) q at eps = 0. :class:`SceneError` is raised if G has no coadjoint action.
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
@@ -43,7 +43,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return tuple(x[:at]), tuple(x[at:])
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Return (e, 0)."""
+        """Return (e, 0), where e is the identity of the base group."""
         e: Vector[S] = self.base.identity(d)
         return e + (d.rational(0),) * self.base.dim
 
@@ -76,8 +76,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
-        This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). If the
-        covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
+        This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). It maps the
+        differential of a Hamiltonian to the Hamiltonian field.
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
@@ -87,7 +87,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``, otherwise None.
 
-        If the base group lacks the capability Projection or Inverse, T*G lacks it, too.
+        The group T*G has the capability Projection only if G has it. The same is true for Inverse.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
@@ -99,16 +99,19 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.require(Inverse).inverse(d, q) + tuple(-m for m in back)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pair g = (q, mu) with q projected onto the base group."""
+        """Project q onto the base group, where g = (q, mu). The momentum mu is not changed."""
         q, mu = self._split(g)
         return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the base group for q, where g = (q, mu). There are no equations for mu."""
+        """Return the equations that the base group has for q, where g = (q, mu).
+
+        There are no equations for mu, because mu may be any vector.
+        """
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (xi.q, n - ad*_xi mu) for x = (xi, n) and g = (q, mu)."""
+        """Return x.g = (xi.q, n - ad*_xi mu), where x = (xi, n) and g = (q, mu)."""
         (xi, n), (q, mu) = self._split(x), self._split(g)
         pairs = zip(n, self.base.adt(d, xi, mu), strict=True)
         return self.base.velocity(d, xi, q) + tuple(a - b for a, b in pairs)

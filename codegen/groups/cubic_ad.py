@@ -1,4 +1,4 @@
-"""Groups whose ad_x satisfies ad_x^3 = -z ad_x: functions of ad_x are quadratic polynomials in ad_x."""
+"""Groups with ad_x^3 = -z ad_x for a scalar z. Each function of ad_x is a quadratic polynomial in ad_x."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp_x, written as the argument ``word`` of :meth:`CubicAd.series`."""
+"""The value of the argument ``word`` of :meth:`CubicAd.series` for the function dexp_x."""
 
 
 class CubicAd(ClosedFormSeries):
     """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
 
-    On such a group dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. If ``signed`` is
-    true, z may be negative.
+    These groups have dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2. Here c_2 and c_3 are Stumpff functions.
+    If ``signed`` is true, z may be negative.
     """
 
     signed: ClassVar[bool] = False
@@ -35,7 +35,7 @@ class CubicAd(ClosedFormSeries):
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x.
 
-        The method computes two brackets, also for a long product.
+        The method computes only two brackets, for products with any number of factors.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -53,9 +53,11 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The result is A + ad_x (B + ad_x C), so the method computes only two brackets. The vectors A, B and C
-        are linear combinations of the vectors v. A is the sum of f v over all triples. If the function
-        ``total`` is given, it computes A. If ``dual`` is true, ad*_x replaces ad_x.
+        The number f is a factor, and W is a product of functions of ad_x. On these groups
+        W(ad_x) = 1 + b ad_x + c ad_x^2. Let A, B and C be the sums of f v, f b v and f c v. The result is
+        A + ad_x (B + ad_x C), which needs only two brackets.
+
+        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -2,8 +2,7 @@
 
 The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore a group operation with dual numbers as
 arguments also gives the derivative of the operation. For example, the bracket of two vectors of dual numbers
-is [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e. The semidirect product of the algebra with itself has
-the same bracket of the pairs (x, u) and (y, v).
+is [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
 """
 
 from __future__ import annotations
@@ -47,8 +46,8 @@ def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
 
 
 class DualDomain:
-    """Arithmetic with dual numbers (a domain, see :mod:`codegen.ir.domain`). The components of the dual
-    numbers are scalars of ``domain``. Stumpff functions are the only functions that this domain supports.
+    """A domain (:mod:`codegen.ir.domain`) of dual numbers. The components of the dual numbers are scalars of
+    ``domain``. The only functions of dual numbers are the Stumpff functions.
     """
 
     def __init__(self, domain: Domain) -> None:
@@ -57,17 +56,17 @@ class DualDomain:
         self.h = Dual(domain.h, self.zero)
 
     def number(self, value: Number) -> Scalar:
-        """Return an exact number as a dual number with the rate 0."""
+        """Convert an exact number to the dual number ``value`` + 0 e."""
         return Dual(self.domain.number(value), self.zero)
 
     def rational(self, p: int, q: int = 1) -> Scalar:
-        """Return p/q as a dual number with the rate 0."""
+        """Return the dual number p/q + 0 e."""
         return Dual(self.domain.rational(p, q), self.zero)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a Stumpff function at a dual number. ``function`` is its name.
+        """Return the value of a Stumpff function at a dual number.
 
-        ArithmeticError is raised for the name of any other function.
+        ``function`` is the name of the function. ArithmeticError is raised if it is not a Stumpff function.
         """
         name, digit = function[:-1], function[-1:]
         if not (name.endswith("stumpff") and digit.isdecimal()):

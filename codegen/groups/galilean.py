@@ -13,13 +13,14 @@ from codegen.ir.domain import Domain
 
 
 class Galilean(Semidirect):
-    """Maps of events (y, t) to events (R y + v t + p, t + s), with the coordinates R (row by row), v, p, s.
+    """The group of the maps (y, t) -> (R y + v t + p, t + s) of events, where y is a position and t a time.
 
-    The linear factor (R, v) has the operations of SE(3). In this factor, the velocity v of a boost takes the
-    place of the translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the
-    algebra contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w,
-    dexp_w b, dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix
-    of the map b -> w cross b.
+    The coordinates of an element are R (row by row), v, p and s. The pairs (R, v) form a group with the
+    operations of SE(3). In the formulas of SE(3), the velocity v replaces the translation.
+
+    The elements of the algebra are (w, b, u, r). The components w, b, u and r are the derivatives of R, v, p
+    and s at the identity. The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r).
+    Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix of the map b -> w cross b.
     """
 
     name = "Gal(3)"
@@ -45,9 +46,9 @@ class _Events(MatrixColumns):
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return (dexp_w p + r psi b, r) for x = (w, b) and u = (p, r).
 
-        Let W be the matrix of the map b -> w cross b. Let c_3 be the value of a Stumpff function at w.w, and
-        let c_2' be the derivative of the Stumpff function c_2 at w.w. Then psi = 1/2 + c_3 W + c_4 W^2 with
-        c_4 = c_2' + c_3/2.
+        Here psi is the matrix 1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2 with z = |w|^2. The matrix W is that
+        of the map b -> w cross b. The functions c_2 and c_3 are Stumpff functions, and c_2' is the derivative
+        of c_2.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

@@ -11,9 +11,9 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large matrices, whose operations on elements are not available.
+    """A group of large matrices. Its elements are never computed, because they have n^2 entries.
 
-    Each operation raises :class:`codegen.errors.SceneError`, because it would need arrays with n^2 entries.
+    Each operation of the group raises :class:`codegen.errors.SceneError`.
     ``families`` is a text for the error message. It contains the names of the families of methods that can be
     emitted for this group.
     """
@@ -28,8 +28,8 @@ class LargeGroup(LieGroup):
     def _refuse(self) -> NoReturn:
         raise SceneError(
             f"{self.name} is too large for formulas with the coordinates of its elements",
-            expected=f"a method of the family {self.families}; its code stores no {self.n} x {self.n} matrix",
-            hint="use a scene with matrices of at most eight rows if such formulas are needed",
+            expected=f"a method of the family {self.families}",
+            hint="for formulas with coordinates, use a scene with matrices of at most eight rows",
         )
 
     def identity(self, d: Domain) -> Vector[S]:

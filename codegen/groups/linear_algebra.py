@@ -52,12 +52,10 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 
 
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
-    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3). For e = 1 - |v|^2 the result is a
-    unit vector up to O(e^3).
-    """
+    """Return v (1 + e/2 + 3 e^2/8). For e = 1 - |v|^2, this is v/|v| up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # The formula is not (1 + excess) v, because the sum 1 + excess would be rounded. On average this rounding
-    # would make v shorter.
+    # The sum 1 + excess is not computed, because rounding would remove a small excess. Doubles are denser
+    # below 1 than above 1, so positive values would be removed more often, and v would become too short.
     return tuple(a + excess * a for a in v)
 
 
@@ -89,15 +87,15 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 
 
 def determinant(a: Vector[S], n: int) -> S:
-    """Return the determinant of an n x n matrix by expansion along the rows, which needs no divisions.
+    """Return the determinant of an n x n matrix by expansion along the rows.
 
-    The number of products is n (2^(n-1) - 1).
+    The method needs n (2^(n-1) - 1) products and no divisions.
 
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` maps each set of m columns to a determinant. Its entries are those of the m columns in the
-    # last m rows. Each pass of the outer loop increases m by one, from m = 1 to m = n.
+    # ``minors`` maps each set of m columns to the determinant of their entries in the last m rows. At first,
+    # m is 1. Each pass of the outer loop increases m by one, and m is n at the end.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}

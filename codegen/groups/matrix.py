@@ -1,8 +1,7 @@
-"""Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
+"""Matrix groups that are given by a basis of their Lie algebra.
 
-The matrix exponential is computed by a vector function (:mod:`codegen.ir.vector_function`) in every domain.
-Let L be the derivative of the exponential at the matrix x in the direction of the matrix y. Then
-dexp_x y = L exp(-x).
+In general, the matrix exponential is computed by a vector function (:mod:`codegen.ir.vector_function`). Let L
+be the derivative of the exponential at a matrix x in the direction of a matrix y. Then dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         self.n = len(basis[0]) if basis else 0
         if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
             raise SceneError(
-                "the basis is empty, or its matrices are not all square and of the same size",
+                "the basis is empty, or a matrix is not square, or two matrices have different sizes",
                 where=name,
                 expected="n x n matrices",
             )
@@ -65,15 +64,14 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dual_hat(self, d: Domain, mu: Vector[S]) -> Vector[S]:
         """Return the matrix M of an element mu of the dual.
 
-        It satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
+        The matrix M satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
         """
         return _weighted(d, self.algebra.dual_places, mu)
 
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the element mu of the dual that a matrix M defines, where M may be any n x n matrix.
+        """Return the element mu of the dual with <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
 
-        It satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x). For a matrix M = dual_hat(nu) the
-        result is nu.
+        The argument M may be any n x n matrix. If M = dual_hat(nu), the result is nu.
         """
         return _weighted(d, self.algebra.basis, matrix)
 
@@ -86,7 +84,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return product(d, g, k, self.n)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g^-1. A group of isometries overrides this method by a transposition."""
+        """Return the inverse matrix of g."""
         return invert(d, g, self.n)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -99,14 +97,15 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y for a column y.
 
-        If the matrices are large and the algebra is not nilpotent, the matrix exp(x) is not computed.
+        If the matrices are large and the algebra is not nilpotent, a vector function computes exp(x) y
+        without the matrix exp(x).
         """
         if self.n < LOOPED or self.algebra.nilpotency:
             return super().exp_times(d, x, y)
         return d.vector(f"expmv{self.n}", (*self.hat(d, x), *y))
 
     def _polynomial(self, d: Domain, a: Vector[S]) -> Vector[S]:
-        """Return 1 + a + a^2/2 + ... for a nilpotent algebra, where the sum is finite."""
+        """Return exp(a) for a nilpotent algebra: the finite sum 1 + a + a^2/2 + ..."""
         unit: Vector[S] = self.identity(d)
         total, term = tuple(x + y for x, y in zip(unit, a, strict=True)), a
         for k in range(2, self.algebra.nilpotency):
@@ -129,7 +128,11 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y]. Large matrices with many structure constants are multiplied."""
+        """Return [x, y].
+
+        If the matrices are large and there are many structure constants, [x, y] is computed as a commutator
+        of matrices. Otherwise it is computed from the structure constants.
+        """
         if self._has_long_brackets:
             return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
         total: list[S] = [d.rational(0)] * self.dim
@@ -140,7 +143,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y.
 
-        The matrix of the result is the commutator [a^T, M], where a = hat(x) and M is the matrix of mu.
+        Let a = hat(x), and let M be the matrix of mu. The result is dual_vee of the commutator [a^T, M].
         """
         if self._has_long_brackets:
             a = transposed(self.hat(d, x), self.n)
@@ -155,21 +158,21 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.n >= LOOPED and len(self.constants) > self.size
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1."""
+        """Return the coordinates of the matrix g A g^-1, where A = hat(x)."""
         return self._conjugated(d, g, x, self.inverse(d, g))
 
     def _conjugated(self, d: Domain, g: Vector[S], x: Vector[S], inverse: Vector[S]) -> Vector[S]:
         return self.vee(d, product(d, product(d, g, self.hat(d, x), self.n), inverse, self.n))
 
     def _dual_conjugated(self, d: Domain, g: Vector[S], mu: Vector[S], inverse: Vector[S]) -> Vector[S]:
-        """Return the element of the dual with the matrix g^T M g^-T, where M is the matrix of mu."""
+        """Return dual_vee of the matrix g^T M g^-T, where M is the matrix of mu."""
         moved = product(d, transposed(g, self.n), self.dual_hat(d, mu), self.n)
         return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_g mu, which is defined by <Ad*_g mu, y> = <mu, Ad_g y> for all y.
 
-        If mu has the matrix M, the result has the matrix g^T M g^-T.
+        Let M be the matrix of mu. The result is dual_vee of g^T M g^-T.
         """
         return self._dual_conjugated(d, g, mu, self.inverse(d, g))
 
@@ -180,7 +183,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu.
 
-        The matrix of the result is the transpose of dexp_{-x} M^T, where M is the matrix of mu.
+        Let a = -hat(x), and let M be the matrix of mu. Let L be the derivative of exp at a in the direction
+        M^T. The result is dual_vee of the transpose of L exp(-a).
         """
         if self.algebra.nilpotency:
             return self._dual_series(d, x, mu)
@@ -190,10 +194,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, transposed(result, self.n))
 
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return the sum of (ad*_x)^k mu/(k+1)! for a nilpotent algebra, where the sum is finite."""
+        """Return dexp*_x mu for a nilpotent algebra: the finite sum of (ad*_x)^k mu/(k+1)! over k >= 0."""
         total, term = mu, mu
-        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. For m = nilpotency, each
-        # product contains x^m = 0, so this power of ad_x and of its transpose ad*_x is zero.
+        # Let m be the nilpotency. Then x^m = 0. The result of (ad_x)^(2 m - 1) y is a sum of multiples of
+        # x^i y x^j with i + j = 2 m - 1. Each of them is zero, because i or j is at least m.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -201,7 +205,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n."""
+        """Return the momentum of the product exp(x, n) (q, mu) in T*G.
+
+        The momentum is Ad*_{exp(-x)} mu + dexp*_{-x} n. It does not depend on q.
+        """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)
         return self._transported(d, x, n, mu)[1]
@@ -209,8 +216,9 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, followed by the result of :meth:`transport`. If the algebra is not nilpotent,
-        exp(x) is computed only once.
+        """Return the coordinates of exp(x) q and of the result of :meth:`transport` as one tuple.
+
+        If the algebra is not nilpotent, exp(x) is computed only once.
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)
@@ -220,10 +228,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _transported(
         self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return exp(x) and Ad*_{exp(-x)} mu + dexp*_{-x} n.
+        """Return exp(x) and the momentum p = Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
         Let a = hat(x), and let M and N be the matrices of mu and n. Let L be the derivative of exp at a in
-        the direction N^T. Then the matrix of the second result is the transpose of (exp(a) M^T + L) exp(-a).
+        the direction N^T. Then p is dual_vee of the transpose of (exp(a) M^T + L) exp(-a).
         """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
@@ -251,7 +259,7 @@ class IsometryGroup(MatrixGroup, Projection):
     form: tuple[tuple[int, int], ...]
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return J^-1 g^T J."""
+        """Return the inverse of g, which is J^-1 g^T J."""
         result = list(g)
         for i, (p, s) in enumerate(self.form):
             for j, (q, t) in enumerate(self.form):
@@ -264,7 +272,10 @@ class IsometryGroup(MatrixGroup, Projection):
         return self.inverse(d, exponential)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g (3 - J^-1 g^T J g)/2: one Newton step towards the polar factor of g."""
+        """Return g (3 - r g)/2, where r = J^-1 g^T J is the inverse of g if g is in the group.
+
+        This is one step of the Newton-Schulz iteration. It doubles the number of correct digits.
+        """
         half, three = d.rational(1, 2), d.rational(3)
         gram = matmul(self.inverse(d, g), g, self.n)
         defect: Vector[S] = tuple(
@@ -273,8 +284,10 @@ class IsometryGroup(MatrixGroup, Projection):
         return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations for the entries of g^-1 g = 1, where g^-1 = J^-1 g^T J. Each equation is a
-        pair of a text and a residual.
+        """Return a pair (text, residual) for each entry of the matrix J^-1 g^T J g - 1.
+
+        The residual is the value of the entry. The text is the equation of the group: g^T J g = J,
+        or g^T g = 1 if J = 1.
         """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)

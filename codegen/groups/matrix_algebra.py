@@ -20,8 +20,9 @@ a matrix are numbered row by row.
 
 @dataclass(frozen=True)
 class MatrixAlgebra:
-    """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
+    """A vector space of n x n matrices that is closed under [A, B] = AB - BA.
 
+    - ``basis`` contains the basis matrices e_0, e_1, ...
     - ``dual`` is the dual basis, which consists of matrices of the same space. Coordinate i of a matrix A is
       sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
     - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
@@ -35,15 +36,15 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """One tuple of pairs (i, x) for each position in a matrix, row by row. In a pair, x is the non-zero
-        entry of the basis matrix i at this position.
+        """One tuple for each position in an n x n matrix, row by row. The tuple contains a pair (i, x) for
+        each basis matrix i that has a non-zero entry x at this position.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """One tuple of pairs (i, x) for each position in a matrix, row by row. In a pair, x is the non-zero
-        entry of the matrix i of the dual basis at this position.
+        """One tuple for each position in an n x n matrix, row by row. The tuple contains a pair (i, x) for
+        each matrix i of the dual basis that has a non-zero entry x at this position.
         """
         return _by_place(self.dual, self.n**2)
 
@@ -51,8 +52,8 @@ class MatrixAlgebra:
     def nilpotency(self) -> int:
         """A number k for which every product of k matrices of the algebra is zero, or 0 if no k is found.
 
-        Only the positions of zeros are used. k is the least number for which every product of k matrices is
-        zero if the matrices are zero at each position where all basis matrices are zero.
+        The number is computed from the positions of the non-zero entries of the basis matrices. The values of
+        these entries are not used, so k may be larger than necessary.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -192,6 +193,6 @@ class _Coordinates:
                 "basis matrices",
                 where=self.name,
                 expected="the basis of a Lie algebra",
-                hint="add this bracket to the basis",
+                hint="add the matrix [A, B] to the basis",
             )
         return [(i, c) for i, c in sorted(x.items()) if c]

@@ -22,9 +22,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the capability, otherwise None.
 
-        A group has the capability :class:`CayleyMap` only if its algebra contains x^3 for each x in the
-        algebra. The algebra then contains all odd powers of x, so cay(x) = exp(2 artanh(x/2)) is in the
-        group.
+        The capability :class:`CayleyMap` requires that the algebra contains x^3 for each of its elements x.
+        If this condition is violated, cay(x) is not in the group for some x.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
@@ -33,12 +32,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        The test computes x^3 for one element x, whose coordinates are fixed integers below 2^61. The entries
-        of x^3 are polynomials of degree 3 in the coordinates of x. If the coordinates were chosen at random,
-        the probability of a wrong result would be at most about 3/2^61.
+        The test is done for only one element x. Its coordinates are fixed integers below 2^61, which replace
+        random integers. The entries of x^3 are polynomials of degree 3 in the coordinates. For random
+        coordinates, the probability of a wrong result would therefore be at most about 3/2^61.
         """
-        # The coordinates are powers modulo a prime. These integers behave like random integers, and they are
-        # the same in each run.
+        # The coordinates are powers of 37 modulo the prime 2^61 - 1. They replace random integers.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
@@ -53,7 +51,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return tuple(Fraction(QQ.text(e.coefficients[0])) for e in entries)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (1 - A/2)^-1 (1 + A/2) for the matrix A of x, by elimination."""
+        """Return the Cayley map (1 - A/2)^-1 (1 + A/2), where A is the matrix of x."""
         return solved_near_identity(*self._near_identity(d, x), self.order)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -77,8 +75,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
         """Return exp(t B) for the basis matrix B with the index k.
 
-        If B^3 = c B for a number c, the closed form is 1 + t c_1(-c t^2) B + t^2 c_2(-c t^2) B^2 with the
-        Stumpff functions c_1 and c_2. Otherwise :meth:`exp` is used.
+        If B^3 = s B for a number s, the result is 1 + t c_1(z) B + t^2 c_2(z) B^2 with z = -s t^2. Here c_1
+        and c_2 are the Stumpff functions. If there is no such number s, :meth:`exp` is used.
         """
         b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
         square = matmul(b, b, self.order)
@@ -98,7 +96,7 @@ def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
 
 
 def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
-    """Return c_1(-c t^2) and c_2(-c t^2) for the Stumpff functions c_1 and c_2."""
+    """Return the values of the Stumpff functions c_1 and c_2 at -c t^2."""
     if not c:
         return d.rational(1), d.rational(1, 2)
     z: S = d.rational(-c.numerator, c.denominator) * (t * t)
@@ -110,7 +108,7 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
 
 
 def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
-    """Add the sum of weights[k] values[k] to ``total``. Terms with weight zero are omitted."""
+    """Return ``total`` plus the two products of a weight and a value. Terms with weight zero are omitted."""
     for w, v in zip(weights, values, strict=True):
         if w:
             factor: S = d.rational(w.numerator, w.denominator)

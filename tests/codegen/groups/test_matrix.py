@@ -79,9 +79,9 @@ def test_the_inverse_matrix_is_exact(n):
 @pytest.mark.parametrize(
     ("basis", "message"),
     [
-        ([], "is empty, or its matrices are not all square"),
-        ([[[1, 0]]], "is empty, or its matrices are not all square"),
-        ([[[1, 0], [0, 1]], [[1]]], "is empty, or its matrices are not all square"),
+        ([], "is empty, or a matrix is not square"),
+        ([[[1, 0]]], "is empty, or a matrix is not square"),
+        ([[[1, 0], [0, 1]], [[1]]], "is empty, or a matrix is not square"),
         ([[[1, 0], [0, 1]], [[2, 0], [0, 2]]], "linearly dependent"),
         ([[[0, 1], [0, 0]], [[0, 0], [1, 0]]], "is not a linear combination of the basis matrices"),
     ],
