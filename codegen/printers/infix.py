@@ -1,7 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) as infix text with parentheses and line breaks.
 
 Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
-Subclasses of :class:`Infix` define the operators and functions in which target languages differ.
+Target languages have different notations for some operators and functions. Subclasses of :class:`Infix`
+define these notations.
 """
 
 from __future__ import annotations
@@ -37,9 +38,9 @@ class Text:
         return " ".join(self.segments)
 
     def within(self, level: int) -> tuple[str, ...]:
-        """Return the segments, in parentheses if the precedence is below ``level``."""
-        # A text with the precedence ``level`` gets no parentheses. A caller that needs them passes
-        # ``level + 1``.
+        """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
+        # Equal precedence needs no parentheses here. A caller that wants parentheses for equal precedence
+        # passes ``level + 1``.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -60,14 +61,14 @@ comparison.
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return one segment if the whole text has at most ``most`` characters, otherwise ``segments``."""
+    """Return the whole text as one segment if its length is at most ``most``, otherwise ``segments``."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text. ``words`` contains the operators that have another notation in the target
-    language.
+    """Writes terms as text. ``words`` maps the name of an operator to its notation in the target language, if
+    the two differ.
     """
 
     words: ClassVar[dict[str, str]]
@@ -93,7 +94,8 @@ class Infix(ABC):
         if level in (AND, OR):
             # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
-            # On the left, an operation with the same operator needs no parentheses, as in ``a && b && c``.
+            # The left operand of ``&&`` needs no parentheses if it also is an operation with ``&&``, as in
+            # ``a && b && c``. The same is true for ``||``.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
         # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes

@@ -33,13 +33,14 @@ class Interface:
     - ``prefix`` starts every external C name and ends in an underscore.
     - ``size`` is the number of coordinates of a state.
     - ``time`` is True if the step reads t.
-    - ``parameters`` are the run-time parameters in order.
-    - ``inputs`` are the run-time functions of time, in order.
+    - ``parameters`` are the run-time parameters in the order of the arguments.
+    - ``inputs`` are the names of the run-time inputs, which are functions of time.
     - ``blocks`` are the labels of the blocks of implicit equations.
-    - ``solvers`` are the methods that solve the blocks, in the same order.
+    - ``solvers`` has the solution method of each block, in the order of ``blocks``.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
     - ``adaptive`` is True if the module has a function for runs with step-size control.
-    - ``variations`` is the number of rows of the Jacobian, or 0 if the module does not compute it.
+    - ``variations`` is the number of rows of the Jacobian of a step, or 0 if the module does not compute the
+      Jacobian.
     - ``batch`` is True if the module has a function for many independent systems.
     - ``integrated`` is True if the module has a function for runs to a given end time.
     - ``controlled`` is True if runs to a given end time have step-size control.
@@ -127,15 +128,15 @@ class Interface:
         """Return the interface as plain data for the manifest. :meth:`from_json` reads these data."""
         # JSON has no tuples. Lists replace the tuples, so that the result is equal to data from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # Three groups of fields are omitted if they do not apply. They describe a run to a given end time, a
-        # lattice, and Fourier modes.
+        # The fields for runs to a given end time are omitted if the module has no such runs. The fields for
+        # lattices and for Fourier modes are omitted in the same way.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
-        """Return the interface that :meth:`as_json` wrote."""
+        """Return the interface that is described by data from :meth:`as_json`."""
         # JSON has no tuples, so lists become tuples. A missing list becomes an empty tuple.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 

@@ -29,7 +29,7 @@ class ModeFormulas:
 
     - ``style`` is the notation of constants and function names in the target language.
     - ``names`` maps symbols of the scene to identifiers.
-    - ``reserved`` are identifiers that an intermediate value must not have.
+    - ``reserved`` contains identifiers that are not available for intermediate variables.
     """
 
     step: ModeStep
@@ -46,20 +46,20 @@ class ModeFormulas:
         for statement in arranged.statements:
             # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
-            # If a name of the kernel is a reserved word of the target language, the variable gets a new name.
+            # If the name is reserved or already in use, underscores are appended to it.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # The outputs are rendered last, because they may contain the names of assigned variables.
+        # The outputs may contain the new names of variables, so ``names`` must be complete at this point.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor, a function of z = h lambda.
+        """Return the text of a factor, such as ``exp(z)``.
 
-        Here lambda is an eigenvalue of the linear part L of the equation. ``call`` has two arguments: a
-        function, and the text of its argument. It returns the text of the call.
+        Here z is the step size times an eigenvalue of the linear part L of the equation. The function
+        ``call`` returns the text of a function call. It receives the function name and the text of z.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
@@ -68,7 +68,7 @@ class ModeFormulas:
     def table(self, table: Table) -> str:
         """Return the text of the formula for a coefficient of the step at one mode.
 
-        In the formula, ``f0``, ``f1``, ... are the values of the factors of the step.
+        In the formula, ``f0``, ``f1``, ... are the values of functions such as exp(z) (``step.factors``).
         """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
@@ -84,16 +84,16 @@ class ModeFormulas:
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
-        # A coefficient of the old state does not contain the factor h.
+        # The old state is multiplied by a coefficient without the factor h.
         if not table.power:
             return inner
-        # A coefficient of a value of the nonlinear part contains the factor h.
+        # The values of the nonlinear part are multiplied by coefficients with the factor h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the variable that contains the spectrum in a term.
+        """Return the name of the variable that ``term`` multiplies by its coefficient.
 
-        A term is a coefficient times the spectrum of the old state or of a value of the nonlinear part.
+        The variable contains the Fourier coefficients of the old state, or of a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
@@ -105,7 +105,7 @@ class ModeFormulas:
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start
-        # The factor 1 of h is not printed.
+        # ``start + h`` is printed instead of ``start + 1 * h``.
         return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
 
 

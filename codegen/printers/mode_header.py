@@ -7,7 +7,7 @@ from codegen.printers.recipe import Recipe, header
 
 
 def mode_header(kernel: Kernel, recipe: Recipe, width: int) -> list[str]:
-    """Return the lines of the header up to the usage example."""
+    """Return the lines of the header that precede the usage example."""
     step = kernel.modes
     assert step is not None
     # The state is one array, whose length n is known only at run time.

@@ -15,10 +15,10 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
-                # In a kernel expression, a call is a node with the operation ``call``.
+                # A node with the operation ``call`` is a function call, and its payload is the function name.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
-        # Two groups of functions are not listed. The module itself defines the functions in ``unit.parts``.
-        # The user of the module passes the functions in LANGUAGE as arguments.
+        # Two groups of names are omitted. The module itself defines the functions in ``unit.parts``. The user
+        # of the module passes the functions in ``LANGUAGE`` as arguments.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.

@@ -1,4 +1,5 @@
 """The target Python: one module for each step.
 
-A module needs only the standard library. In single precision and for steps on Fourier modes it needs NumPy.
+A module in single precision or for a step on Fourier modes needs NumPy. The other modules need only the
+standard library.
 """

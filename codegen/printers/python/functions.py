@@ -1,9 +1,9 @@
 """Prints functions (:mod:`codegen.run.language`) in Python.
 
-The printed functions change lists in place and return status codes. One statement reads or writes several
-consecutive entries of a list, because this is faster. Python raises an arithmetic error where C computes an
-infinity or a NaN. Some functions have a guard, a ``try`` statement that converts the error to a status code
-or to NaNs.
+The printed functions change lists in place and return status codes. One assignment to several consecutive
+entries of a list is faster than an assignment to each entry, so the printer combines such assignments. Python
+raises an arithmetic error where C computes an infinity or a NaN. Some functions have a guard, a ``try``
+statement that converts the error to a status code or to NaNs.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""The smallest number of assignments that one statement replaces. The assignments read or write consecutive
-entries of one list.
+"""The smallest length of a group of assignments that is printed as one statement. The assignments of a group
+read or write consecutive entries of one list.
 """
 
 
@@ -52,9 +52,9 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # Functions printed here are private, because the public functions are in the template.
+        # The template contains the public functions. All functions printed here get a leading underscore.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
-        # Text from users must not end the docstring, and must not contain an escape sequence.
+        # Triple quotes in the text would end the docstring. A backslash would start an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
         # With a guard, the body is inside a ``try`` statement.
@@ -62,8 +62,8 @@ class FunctionPrinter:
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
             return [*lines, *body]
-        # Python raises ZeroDivisionError, OverflowError or ValueError where C computes an infinity
-        # or a NaN.
+        # ZeroDivisionError and OverflowError are subclasses of ArithmeticError. Functions of ``math`` raise
+        # ValueError for an invalid argument.
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
@@ -90,10 +90,13 @@ class FunctionPrinter:
         return [*lines, ")"]
 
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
-        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions."""
+        """Return the text of a list of zeros or new records. The dimensions of the list are ``shape``.
+
+        If ``shape`` is empty, the result is the text of one zero or one new record.
+        """
         if not shape:
             if kind is Kind.RECORD:
-                # A list comprehension evaluates this constructor call once for each entry.
+                # The caller puts this text into a list comprehension, so each entry is a new record.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
@@ -130,7 +133,7 @@ def filled_words(text: str, width: int = 78) -> list[str]:
     """Return the words of a text as lines of at most ``width`` characters."""
     lines = [""]
     for word in text.split():
-        # The first word of a line is always accepted, even if it is longer than the line.
+        # A word longer than ``width`` gets a line of its own.
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
             lines.append(word)
         else:
@@ -163,14 +166,17 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the leading statements of ``body`` that read or write consecutive entries of one list."""
+        """Return the group of assignments at the beginning of ``body`` that one statement can replace.
+
+        These assignments read or write consecutive entries of one list.
+        """
         group: list[Assign] = []
         for statement in body:
             if not isinstance(statement, Assign):
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            # The first statement of a group must read or write an entry.
+            # A group begins with a statement that reads or writes an entry of a list.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)
@@ -179,8 +185,8 @@ class _Body:
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Return True if ``group`` and ``statement`` together read or write consecutive entries of one list.
 
-        If ``reading`` is True, all these statements must read entries. If ``reading`` is False, they must
-        write entries.
+        If ``reading`` is True, the function tests whether the statements read consecutive entries. Otherwise
+        it tests whether they write consecutive entries.
         """
 
         def one(s: Assign) -> Term:
@@ -197,8 +203,8 @@ class _Body:
         # ``statement`` must use the same list as the first statement of the group.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A joint assignment evaluates all values before it writes. Therefore no value may depend on an entry
-        # that is written.
+        # One statement computes all values before it writes the first entry. The result would be wrong if a
+        # value depended on an entry that an earlier assignment writes.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -264,7 +270,7 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
-        # Python has no loop with a test at the end, so a ``break`` ends the loop.
+        # Python has no loop with a test at the end. An endless loop with a ``break`` replaces it.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
@@ -285,7 +291,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
+        # ``x = x - y`` is printed as ``x -= y``. There is no such short form of ``x = y - x``.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -305,7 +311,7 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
-        # The template defines helper functions with these names.
+        # The helpers in the template have the names ``_sampled`` and ``_measured``.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
         # The library helper ``invert`` has no underscore. The names of all other called functions start
@@ -315,8 +321,8 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index if ``term`` is a scalar entry of a list, and its index is constant. Otherwise return
-    None.
+    """Return the index of the entry if ``term`` is a scalar entry of a list with a constant index. Otherwise
+    return None.
     """
     # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":

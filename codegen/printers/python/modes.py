@@ -16,7 +16,7 @@ from codegen.run.status import MODE_MEANINGS, MODE_STATUSES
 from codegen.templates import environment
 
 NUMPY = {"atan": "arctan", "asin": "arcsin", "acos": "arccos", "atan2": "arctan2", "fabs": "abs"}
-"""Functions that have another name in NumPy."""
+"""The NumPy names of functions whose names in C and in NumPy differ."""
 
 _OWN = """
     np prepare run n h t steps tables completed status spectrum result point k z re im period modes mask
@@ -24,7 +24,7 @@ _OWN = """
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
-"""Names that the module defines, and the names of its arguments and local variables."""
+"""Names that are not available for symbols of the scene. The emitted module uses these names itself."""
 
 
 def _constant(value: Number) -> str:
@@ -49,7 +49,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
     write = ModeFormulas(step, STYLE, names, reserved)
     parameters = [names[p] for p in interface.parameters]
-    # A parameter without a default value is zero.
+    # If the scene has no value for a parameter, the argument has the default zero.
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {

@@ -1,7 +1,7 @@
 """Prints one step as a Python module.
 
 The module has the functions ``step`` and ``run``, and an exception for failures. The docstring of the module
-is the recipe, which states the origin, the properties and the use of the code.
+describes the method, its properties and its use.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 @dataclass(frozen=True)
 class _Module:
-    """The text of one module, and the parts from which the text is assembled."""
+    """Assembles the text of one emitted module."""
 
     kernel: Kernel
     interface: Interface
@@ -93,7 +93,7 @@ class _Module:
     @cached_property
     def parameters(self) -> list[str]:
         """The identifiers of the run-time parameters."""
-        # The template uses the same identifiers as the printed function ``run``.
+        # A parameter has the same name in the template and in the printed function ``run``.
         names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 
@@ -110,12 +110,12 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The helper functions (snippets) that the module calls, with the library functions that these
-        helpers need.
+        """The names of the library functions that the module needs, and the source texts of the helper
+        functions that it needs.
         """
         wanted = {*functions_of(self.unit)}
         # ``functions_of`` searches only kernel expressions and call statements. Other code, such as step
-        # control, may also compute powers and square roots, so these are added here.
+        # control, may also call ``power`` and ``sqrt``.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -136,19 +136,19 @@ class _Module:
         """Return the lines of the private definitions of the module."""
         # The template prints the public records, so they are omitted here.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
-        # Helpers come before the tables and functions that use them.
+        # The text of the helper functions precedes the tables and the functions of the module.
         definitions += [[text] for text in self.needed.texts]
         definitions += [self.printer.table(table) for table in self.unit.tables]
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the text of each run-time parameter in the argument list of a public function.
+        """Return the run-time parameters as they are printed in the argument list of a public function.
 
         If the scene gives the values of all parameters, the arguments have these values as defaults.
         """
         known = self.recipe.defaults
-        # In Python a parameter with a default must not precede a parameter without a default. Therefore
-        # either all parameters have defaults or none.
+        # If only some parameters had defaults, a parameter without a default could follow one with a default.
+        # Python does not allow this order. Therefore all parameters get defaults, or none does.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
@@ -165,11 +165,11 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        # The functions are printed first, because printing them also collects the constants.
+        # This call also collects the constants, so it precedes the use of ``self.constants.digits``.
         parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {
-            # Titles and names come from users and must not end the docstring.
+            # Triple quotes in the text would end the docstring. A backslash would start an escape sequence.
             "recipe": [line.replace("\\", "\\\\").replace('"""', "'''") for line in comments],
             "usage": usage(interface, self.recipe),
             "imports": imports,
@@ -259,7 +259,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return ``arguments`` as keyword-only parameters: ``*`` precedes them if there are any."""
+    """Return ``arguments`` as keyword-only parameters, with ``*`` before the first one."""
     return ["*", *arguments] if arguments else []
 
 
@@ -280,7 +280,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         ]
     time = ["0.0"] if interface.time else []
     known = all(p in recipe.defaults for p in interface.parameters)
-    # Parameters without default values must be passed in the example.
+    # If a parameter has no default value, the example passes values for all parameters.
     unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     # The example uses inputs that are zero at all times.
     zeros = ", ".join(["0.0"] * len(interface.inputs))
