@@ -98,6 +98,6 @@ def described(x: object) -> str:
         return f"an object of type {type(x).__name__}"
     try:
         shown = str(x) if isinstance(x, Number) else repr(x)
-    except ValueError:  # Python does not convert an integer with thousands of digits to text
+    except ValueError:  # raised by ``str`` for an integer with thousands of digits
         shown = "a number"
     return f"{shown if len(shown) <= 60 else shown[:60] + ' ...'} of type {type(x).__name__}"

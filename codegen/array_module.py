@@ -1,4 +1,4 @@
-"""The base class of emitted modules for lattices and semilinear equations."""
+"""The base class of the Python objects that call emitted modules for lattices and semilinear equations."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class ArrayModule:
         self.interface, self.defaults = interface, dict(defaults)
 
     def _values(self, parameters: Mapping[str, object]) -> list[float]:
-        """Return the values of all parameters in the order of the interface.
+        """Return the values of all parameters, in the order of ``interface.parameters``.
 
-        TypeError is raised for an unknown parameter.
+        TypeError is raised if ``parameters`` contains an unknown name.
         """
         pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
         return [real(x, name) for name, x in pairs]

@@ -15,7 +15,7 @@ Signals = Callable[[float], Sequence[float]]
 
 
 SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The solvers of implicit equations, the most robust first."""
+"""The solvers of implicit equations, from the most robust to the least robust."""
 
 
 class Status(IntEnum):
@@ -41,8 +41,10 @@ class StepFailed(ArithmeticError):
     """Raised if a step of a run fails.
 
     The error contains the status of the failed step, the number of completed steps, and the state after the
-    last completed step. The caller can continue the run from this state. If the run was adaptive or a call of
-    ``integrate``, ``arrival`` contains the same state, its time, and the size of the next step.
+    last completed step. The caller can continue the run from this state.
+
+    If :meth:`Integrator.adaptive` or :meth:`Integrator.integrate` raises the error, the attribute ``arrival``
+    contains this state, its time, and the proposed size of the next step. Otherwise ``arrival`` is None.
     """
 
     arrival: Arrival | None = None
@@ -70,9 +72,9 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The zeros of the event functions, in the order in which the run found the zeros."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run, otherwise OK.
+    """EVENT if a terminal event ended the run, and OK if the run reached its end time.
 
-    If a step failed, the attribute ``arrival`` of the error contains the status of the failed step.
+    In the attribute ``arrival`` of a :class:`StepFailed`, this is the status of the failed step.
     """
 
 
@@ -103,12 +105,14 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """Counts of the iterations of a run. A block is a system of equations that each step solves by iteration.
+    """The numbers of iterations in a run.
+
+    A block is a system of equations that each step solves by iteration.
 
     - ``sweeps``: for each block, the number of iterations in the whole run.
-    - ``most``: the largest number of iterations that one block needed in one step.
-    - ``failed``: the number of the block that could not be solved. The first block has the number 1. If all
-      blocks were solved, ``failed`` is 0.
+    - ``most``: the largest number of iterations for one block in one step.
+    - ``failed``: the position of the block that could not be solved. The first block has the position 1. If
+      all blocks were solved, ``failed`` is 0.
     - ``matrices``: the number of Newton matrices that were computed.
     """
 
@@ -138,8 +142,8 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step. The state in the error has the type of the caller's state.
 
-        If an iteration did not converge, the message recommends shorter steps. It also recommends the solvers
-        that the module does not use.
+        If an iteration did not converge, the error message recommends shorter steps. The message also names
+        the solvers that the module does not use.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
@@ -151,8 +155,8 @@ class Begun:
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
-    The result contains the final states of all systems, and the sums of the numbers of steps. The time ``t``
-    and the step size ``h`` in the result belong to the last system.
+    The result contains the states of all systems. ``accepted`` and ``rejected`` are sums over the systems.
+    ``t`` and ``h`` are the values of the last system.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

@@ -1,9 +1,9 @@
 """Emitted modules: their files, and the manifest of the folder to which they are written.
 
-``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Each
-file is written completely before it gets its final name, and the manifest is written last. If the writing
-process is killed between two files, some digests do not match their files. Writing the module again repairs
-the folder. Only one process at a time writes to a folder.
+The file ``manifest.json`` has an entry for each module and target. An entry contains the digests of the files
+of the module. The files of the module are written first, then the manifest. If the process is killed before
+it writes the manifest, some digests can be wrong. Writing the module again repairs the folder. Only one
+process at a time writes to a folder.
 """
 
 from __future__ import annotations
@@ -46,8 +46,12 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write the files and the manifest into a folder, and return their paths.
 
-        A missing folder is created. Other modules in the folder are not changed. InputError is raised if the
-        folder cannot be written to, or if it contains a module of another scene or method with the same name.
+        A missing folder is created. A module in the folder is replaced if it has the same name and the same
+        target. Other modules are not changed.
+
+        A module of another scene or method is replaced only if one of the two module names was chosen with
+        the option ``--prefix``. Otherwise InputError is raised. InputError is also raised if the folder
+        cannot be written to.
         """
         folder = Path(directory)
         try:
@@ -69,9 +73,9 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace a module of another scene or method.
 
-        ``entry`` is the manifest entry of a module in the folder. This module replaces that module if both
-        have the same name and the same target. No error is raised if the user chose the name of one of the
-        two modules with ``--prefix``.
+        ``entry`` is the manifest entry of a module in the folder. The module in the folder is replaced if the
+        two modules have the same name and the same target. No error is raised if one of the two names was
+        chosen with the option ``--prefix``.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -136,9 +140,10 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Return True if all values of a manifest entry are texts, and no file name contains a folder.
+    """Return True if a manifest entry is valid.
 
-    KeyError is raised if a key is missing.
+    The module name, the target, the file names and the digests must be texts. A file name must not contain a
+    slash or a backslash. KeyError is raised if a key is missing.
     """
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
@@ -148,10 +153,11 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     """Read a module from a folder.
 
-    If the folder contains several modules, the names ``module`` and ``target`` choose one of them.
+    ``module`` is the name of the module, and ``target`` is its target language. An empty text matches all
+    names or all targets.
 
-    InputError is raised if no module matches, if several modules match, or if a file is missing or has
-    changed.
+    InputError is raised if no module matches or several modules match. It is also raised if a file of the
+    module is missing, cannot be read, or was changed after it was emitted.
     """
     folder = Path(directory)
     try:
@@ -193,7 +199,7 @@ def write_text(path: Path, text: str) -> Path:
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files one after the other, each atomically, and return their paths.
+    """Write files, and return their paths. Each file is written atomically.
 
     ``texts`` maps the path of each file to its text.
     """

@@ -1,10 +1,9 @@
 """Compile emitted C to a shared object in a cache.
 
-The cached object is used again if the sources, the compiler and its flags have not changed.
+If the sources, the compiler and its flags have not changed, the shared object in the cache is used again.
 
-The compiler writes into a temporary folder inside the cache. The finished file is then copied to its final
-name atomically (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes
-may build the same module at once.
+The compiler writes into a temporary folder inside the cache. The finished file is then written atomically
+into the cache (:mod:`codegen.cache_entry`). Thus two processes may build the same module at once.
 """
 
 from __future__ import annotations
@@ -41,9 +40,9 @@ class CompilerMissing(InputError):
 
 
 class CompileError(InputError):
-    """Raised if the C compiler rejects the source or takes too long.
+    """Raised if the C compiler fails or takes too long.
 
-    The error contains the message of the C compiler, if there is one.
+    If the C compiler fails and prints a message, the error contains this message.
     """
 
 
@@ -62,7 +61,7 @@ class Compiler:
 def find_compiler() -> Compiler:
     """Return the C compiler: $CC if it is set, else the first of cc, gcc and clang that exists.
 
-    CompilerMissing is raised if none of them exists, or if the command in $CC cannot be run.
+    CompilerMissing is raised if no compiler is found, or if the compiler cannot be run.
     """
     return _find(os.environ.get("CC", ""), os.environ.get("PATH", os.defpath))
 
@@ -81,7 +80,7 @@ def _find(named: str, path: str) -> Compiler:
     where = "$CC" if named.strip() else "PATH"
     message = f"the compiler {candidates[0][0]} does not exist" if named.strip() else "no C compiler"
     raise CompilerMissing(
-        message, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
+        message, where=where, expected="cc, gcc or clang", hint="install a compiler, or set CC to its command"
     )
 
 
@@ -107,9 +106,11 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    A shared object in the cache is used if its content agrees with the digest in the cache. If ``again`` is
-    true, the files are always compiled. ``seconds`` is the time limit for the C compiler. Three errors may be
-    raised: CompilerMissing, CompileError, and InputError if the result cannot be written.
+    If the cache contains an undamaged shared object of these files, the files are not compiled. If ``again``
+    is true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
+
+    CompilerMissing and CompileError may be raised. InputError is raised if the shared object cannot be
+    written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -152,16 +153,18 @@ def compile_files(
     compiler: Compiler,
     seconds: float | None = None,
 ) -> None:
-    """Write files into a directory, and compile the C files among them to the file ``output``.
+    """Write files into a directory, and compile the C files to the file ``output``.
 
-    CompileError is raised if the compiler fails, or does not end within ``seconds``.
+    ``files`` maps file names to texts. CompileError is raised if the compiler fails or needs more than
+    ``seconds``. CompilerMissing is raised if the compiler does not exist.
     """
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into ``directory``, which the caller removes in all cases.
+    # The compiler writes its temporary files into ``directory``. The caller removes this folder, even
+    # after an error.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)
@@ -190,7 +193,8 @@ def _finished(
 ) -> subprocess.CompletedProcess[str]:
     """Run a compiler and return its exit status and output.
 
-    If the call is interrupted or exceeds the time limit, all processes of the compiler are killed.
+    ``seconds`` is the time limit. After the time limit or an interrupt, the compiler and the programs that it
+    has started are killed.
     """
     # A compiler starts other programs, such as an assembler. These programs would continue if only the
     # compiler were killed, so all processes belong to one process group.

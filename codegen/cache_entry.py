@@ -1,9 +1,10 @@
-"""The cache: a folder of computed files, with a digest of the content of each file.
+"""The cache: a folder of computed files, which are called entries.
 
-An entry is a file of the cache. An entry is used only if it is a regular file, belongs to the user, and has
-content with the recorded digest. Otherwise the file is computed again. The compiled code in the folder is
-executed, so the folder has mode 0700 and belongs to the user. If such a folder cannot be created, a temporary
-folder is used until the process ends.
+For each entry, a second file contains the digest of its content. An entry is used only if it is a regular
+file, belongs to the user, and has the content of this digest. Otherwise the entry is computed again.
+
+The compiled code in the cache is executed, so only the user has access to the folder. If the folder cannot be
+used, a temporary folder replaces it until the process ends.
 """
 
 from __future__ import annotations
@@ -52,9 +53,9 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Remove the access of other users to the folder.
+    """Change the mode of a folder, so that only its owner has access.
 
-    OSError is raised if another user owns the folder, or if other users still have access.
+    OSError is raised if another user owns the folder, or if the mode cannot be changed.
     """
     if not hasattr(os, "geteuid"):
         return
@@ -73,7 +74,7 @@ def _require_private(folder: Path) -> None:
 def temporary_directory(why: str) -> Path:
     """Return a temporary folder that is removed when this process ends.
 
-    A warning is logged once. It contains ``why``, the reason why the cache cannot be used.
+    ``why`` is the reason why the cache cannot be used. A warning with this reason is logged once.
     """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
@@ -112,18 +113,18 @@ def recall(entry: Path) -> bytes | None:
 
 
 def keep(entry: Path, content: bytes) -> None:
-    """Write an entry of the cache and its digest, each file atomically.
+    """Write an entry of the cache, and write its digest to a second file.
 
-    OSError is raised if a file cannot be written.
+    Each of the two files is written atomically. OSError is raised if a file cannot be written.
     """
     entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     write_entries({_digest_file(entry): _digest(content) + b"\n", entry: content})
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files that only the user can read, each atomically. ``contents`` maps paths to contents.
+    """Write files atomically. Only the user can read the files. ``contents`` maps paths to contents.
 
-    If there is a folder at the path of a file, the folder is removed first.
+    If one of the paths is a folder, the folder and its content are removed.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)
@@ -162,7 +163,7 @@ def _sweep(folder: Path) -> None:
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # the process that created a new folder may not have locked it yet
+                continue  # a new folder may belong to a process that has not locked the folder yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

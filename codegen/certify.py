@@ -1,6 +1,6 @@
-"""The order of a method for the header of emitted code.
+"""The order of a method, as the header of emitted code states it.
 
-The order is computed from the order conditions. The order that the tableau claims is not used.
+For most methods the order is computed from the order conditions. The order in the tableau file is not used.
 """
 
 from __future__ import annotations
@@ -30,10 +30,11 @@ class CertifiedOrder:
     """The order of a method, and how it was established.
 
     - ``certificate`` names the kind of proof. :meth:`text` explains each kind.
-    - ``failing`` contains the violated conditions of the next order.
+    - ``failing`` contains the conditions of order ``order`` + 1 that the method violates.
     - ``bound`` is true if no condition failed up to the largest examined order. In this case the method may
       have a higher order.
-    - ``classical`` is the classical family to which the method reduces on an abelian group, otherwise ''.
+    - ``classical`` is the name of a classical family if the group is abelian and the method reduces to a
+      method of this family. Otherwise ``classical`` is ''.
     - ``radius`` is '' if the uncertainty of the coefficients is at most the rounding error of a double.
       Otherwise ``radius`` is this uncertainty, and the certificate is "none".
     """
@@ -48,7 +49,7 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and an explanation of its certificate as a text for the header."""
         how = {
-            "construction": "a step is the Taylor polynomial of the solution, and the order is its degree",
+            "construction": "each step evaluates the Taylor polynomial of this degree",
             "stated": "the scene states this order",
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists, and that its "
@@ -71,9 +72,9 @@ class CertifiedOrder:
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions apply to a method.
 
-    If the compiler supports the label ``method.family``, the result is the family that
-    :meth:`codegen.lower.base.Lowering.conditions` returns. Otherwise the result is the family with the name
-    ``method.family_label``.
+    If ``method.family`` is a family for which code can be emitted, its
+    :meth:`codegen.lower.base.Lowering.conditions` returns the result. Otherwise the result is the family with
+    the name ``method.family_label``.
     """
     from orderconds import families
 
@@ -85,9 +86,12 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method in its family.
 
-    On an abelian group, the methods of some families reduce to classical methods. For these methods the
-    result is the order in the classical family, if the digits of the coefficients determine this order.
-    MethodError is raised if the coefficients have too few digits to determine the order.
+    On an abelian group, the methods of some families reduce to classical methods. The order in the classical
+    family is then computed first. If the coefficients have enough digits to determine this order, the
+    function returns this order.
+
+    In all other cases the result is the order in the family of the method. MethodError is raised if the
+    coefficients have too few digits to determine this order.
     """
     from orderconds.checking import check
 
@@ -107,9 +111,10 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence for the header about the residuals of the order conditions with rounded coefficients.
+    """Return a sentence for the header about the effect of rounded coefficients.
 
-    ``target`` is the precision to which the coefficients are rounded. ``order`` is the order of the method.
+    The coefficients are rounded to the precision ``target``. The sentence contains the size of the residuals
+    of the order conditions for these coefficients. ``order`` is the order of the method.
     """
     from orderconds import families
 
@@ -137,8 +142,7 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Coefficients that were given as doubles have no uncertainty, because emitted code contains the same
-    # doubles.
+    # Coefficients that were given as doubles are exact: emitted code contains the same doubles.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

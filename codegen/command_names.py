@@ -1,6 +1,6 @@
-"""Names of scenes and methods, as they appear in the command that regenerates a module.
+"""Names of scenes and methods in the command that regenerates a module.
 
-In this command, names contain no folders, and names with special characters are quoted.
+Folders are removed from these names. Names with characters that a shell would interpret are quoted.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from pathlib import PurePath
 
 
 def bare(name: str) -> str:
-    """Return the name of a scene or a method without its folder, so that emitted files are the same on every
-    machine.
+    """Return the name of a scene or a method without the path of its folder.
+
+    The path can be different on each machine, and emitted files must be the same on all machines.
 
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')

@@ -1,4 +1,4 @@
-"""Emitted C modules, compiled to shared objects and called through cffi (ABI mode)."""
+"""Integrators that call emitted C code. The package ``cffi`` loads the code from a shared object."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from codegen.run.status import reason
 
 
 class CompiledIntegrator(Integrator):
-    """An emitted C module in a shared object. Calls release Python's global interpreter lock."""
+    """An integrator whose C code is in a shared object.
+
+    While the C code runs, Python's global interpreter lock is released.
+    """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
         from cffi import FFI
@@ -29,8 +32,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library is closed, because ``dlopen`` returns an open library again even if its file has
-            # been rebuilt.
+            # If the library stayed open, the next ``dlopen`` would return the same library, even if the file
+            # was rebuilt.
             self._ffi.dlclose(self._library)
             raise
 
@@ -149,11 +152,14 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield two lists of arguments of a C call: for the run-time inputs, and for the iteration counts.
+        """Yield two lists of arguments for a C function.
 
-        C code calls the caller's function for the run-time inputs. If this function raises an error, the
-        error is raised again at the end of the ``with`` block. If there was no error, the counts are added to
-        the caller's statistics.
+        The first list contains a function that computes the run-time inputs. The second list contains the
+        structure into which the C function writes its iteration counts. A list is empty if the C function has
+        no such argument.
+
+        If the computation of the inputs raises an error, this error is raised again at the end of the
+        ``with`` block. Otherwise the iteration counts are added to ``begun.statistics``.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
@@ -164,8 +170,9 @@ class CompiledIntegrator(Integrator):
         self._count(counted[0] if counted else None, begun.statistics)
 
     def _block(self, counted: list[Any]) -> str:
-        """Return the label of the system of equations whose iteration failed in the C call, or '' if none
-        failed.
+        """Return the label of the system of equations that the C code could not solve.
+
+        The result is '' if all systems were solved.
         """
         failed = counted[0].failed if counted else 0
         return self.interface.blocks[failed - 1] if failed else ""
@@ -184,10 +191,10 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """Creates the arguments for events in a call of a C function.
+    """The arguments for events in one call of a C function.
 
-    The first argument is a function that computes the values of all event functions. Other arguments are
-    arrays into which the C code writes the zeros that it finds.
+    One argument is a function that computes the values of all event functions. The C code writes the zeros
+    of the event functions into arrays, which are arguments, too.
     """
 
     ROOM = 1024
@@ -208,12 +215,15 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The arguments for events in the C call."""
+        """The arguments for events, in the order in which the C function takes them."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 
     def crossings(self) -> list[tuple[int, float, int, list[float]]]:
-        """Return the found zeros as tuples (index of the event function, time, direction, state)."""
+        """Return the zeros that the C code found.
+
+        Each zero is a tuple (index of the event function, time, direction, state).
+        """
         n = self.size
         events = []
         for k in range(self.count[0]):
@@ -223,11 +233,10 @@ class _Buffers:
 
 
 class _Callback:
-    """A function that C can call. It calls a Python function, which computes the run-time inputs from the
-    time.
+    """A function that C code calls. It computes the run-time inputs at a time by a Python function.
 
-    If the Python function raises an error, the error is stored. From then on C receives NaNs, so the step
-    fails.
+    If the Python function raises an error, the attribute ``failure`` is this error. After an error, all
+    run-time inputs are NaN, and the step fails.
     """
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:

@@ -131,7 +131,8 @@ def test_without_a_compiler_one_message_says_what_to_install(tmp_path: Path) -> 
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "orderconds: PATH: no C compiler; expected cc, gcc or clang; install one, or set CC to its command\n"
+        "orderconds: PATH: no C compiler; expected cc, gcc or clang; "
+        "install a compiler, or set CC to its command\n"
     )
 
 
