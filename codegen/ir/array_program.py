@@ -1,9 +1,10 @@
 """Array programs: lists of assignments to matrices. Emitted code contains loops for each assignment.
 
-The text of a loop has the same length for all numbers of rows, so the code stays short for large matrices. A :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one
-matrix. The scalars in a program are expressions (:mod:`codegen.ir.expr`). A formula may give the entries of a
-constant matrix. In this formula the symbols :data:`ROW` and :data:`COLUMN` are the row index and the column
-index of the entry. Indices begin at zero.
+The text of a loop has the same length for all numbers of rows, so the code stays short for large matrices.
+A :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
+scalars in a program are expressions (:mod:`codegen.ir.expr`). A formula may give the entries of a constant
+matrix. In this formula the symbols :data:`ROW` and :data:`COLUMN` are the row index and the column index of
+the entry. Indices begin at zero.
 """
 
 from __future__ import annotations
