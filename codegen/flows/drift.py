@@ -17,7 +17,7 @@ from codegen.scene.flow import Flow
 class Drift(Flow):
     """The flow of a kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
 
-    In the time tau, the group element q moves by tau xi with the velocity xi = dT/dmu. The momentum is
+    In the time tau, the group element q becomes exp(tau xi) q with the velocity xi = dT/dmu. The momentum is
     constant.
     """
 
@@ -26,14 +26,14 @@ class Drift(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (exp(tau xi) q, mu), where xi = dT/dmu."""
+        """Return (exp(tau xi) q, mu), where xi is the velocity."""
         xi: list[S] = evaluate(self.velocity, d, dict(values))
         return group.mul(d, group.exp(d, tuple(tau * x for x in xi)), q), mu
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, 0), where xi = dT/dmu."""
+        """Return the velocity and the force. The force is zero."""
         return tuple(evaluate(self.velocity, d, dict(values))), (d.rational(0),) * group.dim
 
     def text(self) -> str:
@@ -42,7 +42,7 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with a drift as its flow, or None.
+    """If the flow of the part is a drift, return the part with this flow. Otherwise return None.
 
     The flow is a drift if the group is abelian, and the part depends on the momentum mu alone.
     """

@@ -1,9 +1,9 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
 Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
-element q. If the exact flow of a part is known, there is a shorter formula for the field of this part. Both
-formulas have equal values on the group. The sum of the shorter formulas is used if it needs fewer operations
-than the formula for the whole Hamiltonian.
+element q. If the exact flow of a part is known, there is often a shorter formula for the field of this part.
+The sum of these formulas for all parts is a second formula for the field of the Hamiltonian. The second
+formula is used if it needs fewer operations than the first one.
 """
 
 from __future__ import annotations
@@ -20,12 +20,13 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with its field written as the sum of the fields of the parts.
+    """Return the problem with its field written as the sum of the fields of the parts of its Hamiltonian.
 
     The problem is returned unchanged in the following cases:
 
-    - It has no parts, or the flow of a part is unknown.
-    - The sum would not reduce the number of operations.
+    - The Hamiltonian is not given as a sum of parts, or the flow of a part is unknown.
+    - The sum of the fields does not need fewer operations than the field of ``problem``.
+    - The two formulas for the field differ at a sample point.
     - The scene gives formulas for flows, or has run-time inputs or external forces.
     """
     if problem.hamiltonian is None or not problem.parts:

@@ -31,7 +31,7 @@ class Isotropic(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (r mu, 0), where r is the attribute ``rate``."""
+        """Return the velocity r mu and the force 0, where r is the attribute ``rate``."""
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         return tuple(rate * m for m in mu), (d.rational(0),) * group.dim
 

@@ -16,8 +16,8 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """The flow of a potential H = V(q): q is constant, and the momentum mu increases by tau n in the time
-    tau.
+    """The flow of a potential H = V(q). In the time tau the momentum mu increases by tau n, where n is the
+    force. The group element q is constant.
 
     The force n has the components n_a = -d/deps V(exp(eps e_a) q) at eps = 0, where e_a are the basis
     elements of the Lie algebra.
@@ -36,7 +36,7 @@ class Kick(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (0, n), where n is the force."""
+        """Return the velocity and the force. The velocity is zero."""
         return (d.rational(0),) * group.dim, tuple(evaluate(self.force, d, dict(values)))
 
     def text(self) -> str:

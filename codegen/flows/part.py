@@ -21,15 +21,15 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""The arithmetic with exact rational numbers. They are represented as power series in h of degree zero."""
+"""The arithmetic with exact rational numbers. Each number is stored as a power series of degree 0."""
 
 
 @dataclass(frozen=True)
 class Summand:
-    """A summand of a Hamiltonian whose exact flow is known.
+    """A summand of a Hamiltonian. Its exact flow is known.
 
-    The exact flow is the composition of the flows in ``flows``, which commute. Each entry of ``flows`` is a
-    pair (name, flow).
+    The exact flow is the composition of the flows in ``flows``. These flows commute. Each entry of ``flows``
+    is a pair (name, flow).
     """
 
     flows: tuple[tuple[str, Flow], ...]
@@ -61,7 +61,10 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part of a Hamiltonian, with the derivatives that are used to recognise its flow."""
+    """The formula of one part of a Hamiltonian, and its partial derivatives.
+
+    The derivatives are used to find the exact flow of the part.
+    """
 
     problem: Problem
     name: str
@@ -127,7 +130,8 @@ class Formula:
         """Return the Jacobian matrix of ``slopes`` with respect to the symbols ``names``. The matrix is
         evaluated at the point (q, mu) with mu = 0.
 
-        The result is None if :meth:`constants` returns None for a row of the matrix.
+        The result is None if an entry is not a rational number, or if a row of the matrix contains the time
+        or a parameter that is set at run time.
         """
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]

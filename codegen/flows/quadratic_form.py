@@ -13,7 +13,9 @@ Square = tuple[Fraction, list[Fraction]]
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return pairs (d, e) such that B is the sum of the matrices d e e^T, by Lagrange's reduction.
+    """Return pairs (d, e) of a number and a vector, such that B is the sum of the matrices d e e^T.
+
+    The pairs are computed by Lagrange's reduction of a quadratic form.
 
     >>> squares([[Fraction(0), Fraction(1)], [Fraction(1), Fraction(0)]])
     [(Fraction(1, 2), [Fraction(1, 1), Fraction(1, 1)]), (Fraction(-1, 2), [Fraction(1, 1), Fraction(-1, 1)])]
@@ -47,15 +49,15 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a for which :func:`squares` writes B - a I as a sum of few terms.
+    """Return a number a for which :func:`squares` writes B - a I as a sum of few terms d e e^T.
 
-    I is the identity matrix. Each term corresponds to one square in the quadratic form x.(B - a I) x.
+    I is the identity matrix, d is a number, and e is a vector.
 
     For a diagonal matrix B, the result is a diagonal entry that occurs more than once. If all diagonal
     entries are different, the result is the middle one of the sorted entries.
 
     For any other matrix, the candidates are the diagonal entries, and the numbers a for which a 2 x 2 minor
-    of B - a I vanishes. The result is the candidate with the fewest terms.
+    of B - a I is zero. The result is the candidate a for which the sum has the fewest terms.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -69,7 +71,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # If B - a I is a single term d e e^T, its 2 x 2 minors vanish. The minor of the rows i, k
-                    # and the columns i, j is linear in a. The zero of this minor is a candidate for a.
+                    # If B - a I has rank one, all its 2 x 2 minors are zero. The candidate is the number a
+                    # for which the minor of the rows i, k and the columns i, j is zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -36,8 +36,8 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
 
-    A part may couple the two sites of each pair in one set of :data:`COLOURS`. In this case ``colour`` is the
-    index of the set. If the part couples no sites, ``colour`` is 0.
+    If the part couples neighbouring sites, only the pairs of one set in :data:`COLOURS` are coupled by this
+    flow. ``colour`` is the index of this set. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -61,10 +61,11 @@ class SiteFlow(Flow):
 
 
 def site_flows(scene: Problem) -> list[Part]:
-    """Return the parts of a lattice with their exact flows. Parts that couple no sites come first.
+    """Return the parts of the field or Hamiltonian of a lattice with their exact flows.
 
-    A part may couple neighbouring sites along an axis. The pairs of coupled sites then form two sets
-    (:data:`COLOURS`). The flows of the two sets do not commute, so each set is listed as a separate part.
+    If a part of the field couples neighbouring sites along an axis, it is split into two parts: one for each
+    set of pairs of sites in :data:`COLOURS`. These two parts have flows that do not commute. Parts of the
+    field that couple no sites are returned before the parts that couple sites.
     """
     assert scene.sites is not None
     if scene.paired:
@@ -80,7 +81,8 @@ def site_flows(scene: Problem) -> list[Part]:
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
     """Return the parts of the Hamiltonian of a lattice with their exact flows.
 
-    The last part contains all energies that do not depend on momenta. Its flow is a kick.
+    The last part of the list contains all energies that do not depend on momenta. The flow of this part is a
+    kick.
     """
     assert scene.sites is not None
     listed, total = [], scene.sites.force

@@ -18,7 +18,7 @@ from codegen.scene.hamiltonian_scene import TAU
 class Stated(Flow):
     """A flow that the scene gives by formulas for (q, mu) after the time tau.
 
-    The formulas were verified when the scene was read.
+    When the scene is read, the time derivatives of the formulas are compared with the field of the part.
     """
 
     formulas: tuple[Expr, ...]

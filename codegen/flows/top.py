@@ -1,12 +1,12 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Let B be a constant symmetric
-matrix. The function P.(B P)/2 is equal to the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
+matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
 numbers, and e_k are fixed vectors.
 
 - The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
-- The flow of c P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
-  action does not preserve the dot product, c is zero.
+- The flow of c P.P/2 is a rotation about the momentum, if the adjoint action preserves the dot product. This
+  rotation commutes with all turns. If the dot product is not preserved, the sum with c = 0 is used.
 
 With at most one turn, as for a symmetric top, all these flows commute, and their composition is the exact
 flow of the function. With more turns, as for an asymmetric top, the turns do not commute with each other.
@@ -30,8 +30,8 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. If the part is not a quadratic function of the momentum, the
-    result is a :class:`Part` that has no flow.
+    Return None if the group is abelian, because an abelian group has no rotations. If the part is not a
+    quadratic function of the momentum, return a :class:`Part` that has no flow.
     """
     if formula.problem.group.abelian:
         return None
@@ -47,10 +47,10 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if the part is equal to P.(B P)/2 + w.P plus a constant number.
+    """Return True if ``formula`` is equal to P.(B P)/2 + w.P plus a constant number.
 
-    The momentum is P = Ad*_q mu in the body frame if ``body`` is true, otherwise P = mu in the space frame. B
-    and w are the arguments ``B`` and ``w``.
+    If ``body`` is true, P = Ad*_q mu is the momentum in the body frame. Otherwise P = mu is the momentum in
+    the space frame.
     """
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
@@ -85,15 +85,15 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with every turn, so this rotation is added to the first
-        # summand.
+        # The rotation about the momentum commutes with every turn. It can therefore be composed with the
+        # first turn and needs no summand of its own.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return True if the adjoint action Ad preserves the dot product of coordinates."""
+    """Return True if the adjoint action preserves the dot product of elements of the Lie algebra."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero
@@ -101,10 +101,10 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Return the turns of a part that also contains the linear term w.P, where P is the momentum.
+    """Include the linear term w.P in a list of turns, where P is the momentum.
 
-    If the axis of a turn is parallel to the vector w, the term w.P is included in this turn as its offset.
-    Otherwise a turn about the axis w is added.
+    If the axis of a turn is parallel to the vector w, the term w.P becomes the offset of this turn.
+    Otherwise a turn about the axis w is appended to the list.
     """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)

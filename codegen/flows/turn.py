@@ -32,10 +32,13 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the new state: (q g, mu) for an axis fixed in the body, else (g q, Ad*_{g^-1} mu).
+        """Return the new state (q, mu) after the time tau.
 
-        Let e be ``axis``, r ``rate``, c ``offset``, and P the momentum in the frame of the axis. The angle of
-        the turn is a = tau (r e.P + c), and the group element g is exp(a e).
+        The angle of the turn is a = tau (r e.P + c). Here e is ``axis``, r is ``rate``, and c is ``offset``.
+        P is the momentum in the frame in which the axis is fixed. Let g be the group element exp(a e).
+
+        - If the axis is fixed in the body, the new state is (q g, mu).
+        - If the axis is fixed in space, the new state is (g q, Ad*_{g^-1} mu).
         """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
@@ -49,8 +52,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the velocity xi and the force n.
 
-        Let e be ``axis``, r ``rate``, c ``offset``, and P the momentum in the frame of the axis. The angular
-        speed is s = r e.P + c.
+        The angular speed is s = r e.P + c. Here e is ``axis``, r is ``rate``, and c is ``offset``. P is the
+        momentum in the frame in which the axis is fixed.
 
         - If the axis is fixed in space, xi = s e and n = 0.
         - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. The momentum mu is then constant,
@@ -68,9 +71,9 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return the angular speed r e.P + c, where r is ``rate`` and c is ``offset``.
+        """Return the angular speed: ``rate`` times the dot product of ``axis`` and mu, plus ``offset``.
 
-        The number e.P is computed as the dot product of mu and ``axis``, both in the space frame.
+        The vectors ``axis`` and mu are given in the space frame.
         """
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)

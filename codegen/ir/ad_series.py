@@ -48,8 +48,8 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Simplify a product of functions of t.
 
-    Factors that cancel are removed, and all exponentials are combined into one exponential. The rule
-    exp(-s t) dexp(s t) = dexp(-s t) is also applied.
+    Factors that cancel are removed. All exponentials are combined into one exponential. A product
+    exp(-s t) dexp(s t) is replaced by dexp(-s t).
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
@@ -73,7 +73,7 @@ def simplified(word: Word) -> Word:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # The factors are sorted, so that equal products become equal tuples.
+    # The result does not depend on the order of the factors in ``word``, because the entries are sorted.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
         # A power n with |n| > 1 becomes |n| equal factors, because only factors with the powers 1 and -1 can

@@ -18,10 +18,10 @@ def chain(kernel: Kernel) -> int:
 
     The depth is the largest number of Stumpff functions that are nested in one another, but at least 1.
 
-    A kernel with implicit equations has depth 1. Each iteration for such equations reduces the errors of all
-    angles, so a chain of angles does not multiply rounding errors. The depth is also 1 for a
-    splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`). There an error that one flow
-    adds to an angle is not multiplied by the next flow.
+    In two cases the depth is 1, because the rounding error of one angle is not multiplied by the next angle:
+
+    - The kernel has implicit equations. Each iteration for these equations reduces the errors of all angles.
+    - The kernel is a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -32,13 +32,14 @@ def chain(kernel: Kernel) -> int:
     """
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # Each name is assigned before it is read. Hence its depth is in this table when it is read.
+    # The table contains the depth of every name that a statement reads, because each name is assigned before
+    # it is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # Only the outputs matter, because they are the new state. The depth is at least 1, because
-    # :func:`codegen.snippets.stumpff.limit` divides a number by the depth.
+    # The depth of a step is the largest depth of an output, because the outputs are the new state. It is at
+    # least 1, because :func:`codegen.snippets.stumpff.limit` divides by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
@@ -51,7 +52,8 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Only Stumpff functions increase the depth. Their derivatives (``slope2`` etc.) do not, because a
-        # formula with a derivative also contains a Stumpff function of the same angle.
+        # A Stumpff function increases the depth by 1. A derivative of a Stumpff function (``slope2`` etc.)
+        # is not counted, because a formula with a derivative also contains a Stumpff function of the same
+        # angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

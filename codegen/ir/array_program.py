@@ -1,10 +1,10 @@
-"""Array programs: lists of assignments to matrices. Emitted code executes each assignment by loops.
+"""Array programs: lists of assignments to matrices. Emitted code contains loops for each assignment.
 
-The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
-:class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
-scalars in a program are expressions (:mod:`codegen.ir.expr`). The entries of a constant matrix may be given
-by a formula. It contains the row index and the column index of the entry as the symbols :data:`ROW` and
-:data:`COLUMN`. Indices begin at zero.
+The text of a loop has the same length for all numbers of rows, so the code stays short for large matrices.
+A :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
+scalars in a program are expressions (:mod:`codegen.ir.expr`). A formula may give the entries of a constant
+matrix. In this formula the symbols :data:`ROW` and :data:`COLUMN` are the row index and the column index of
+the entry. Indices begin at zero.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ Arrays = MutableMapping[str, list[Scalar]]
 class Matrix:
     """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
 
-    ``stride`` is the distance between the first entries of successive rows. ``stride`` = 0 means that there
-    are no gaps between the rows.
+    ``stride`` is the distance in the array between the first entries of successive rows. The value 0 is
+    replaced by the number of columns. The rows are then stored without gaps between them.
     """
 
     name: str
@@ -52,8 +52,8 @@ class Matrix:
         """Return the submatrix with ``rows`` rows and ``columns`` columns. It begins in row ``row`` and
         column ``column`` of this matrix.
         """
-        # The submatrix and this matrix are stored in the same array, so the distance between
-        # successive rows is equal.
+        # The submatrix is stored in the array of this matrix. Both matrices therefore have the same distance
+        # between successive rows.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -63,8 +63,8 @@ class Matrix:
 
 
 Entry = Expr | tuple[Number, ...]
-"""The entries of a matrix or of one of its diagonals. They are given by a formula in :data:`ROW` and
-:data:`COLUMN`, or by a tuple of numbers.
+"""The entries of a matrix, or the entries of one diagonal of a matrix. An ``Entry`` is a formula with the
+symbols :data:`ROW` and :data:`COLUMN`, or a tuple of numbers.
 """
 
 
@@ -94,8 +94,9 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The entries of each diagonal. If the matrix is full, the only element is ``full``."""
-        # If the matrix is full, ``diagonals`` is empty.
+        """The formula or the numbers of each diagonal. If there are no ``diagonals``, the tuple contains only
+        ``full``.
+        """
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
     def length(self, diagonal: Diagonal) -> int:
@@ -140,8 +141,9 @@ def _valued(
     # numbers. All other symbols remain, because ``kept`` maps them to themselves.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The formula may select a branch by a comparison of indices. The first evaluation compares exact
-        # integers. Scalars of ``domain`` may be power series, which cannot always be compared.
+        # The formula may select a branch by a comparison of indices. In the first evaluation the indices are
+        # exact integers, which can be compared. In ``domain`` they may be power series, which cannot always
+        # be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -164,7 +166,7 @@ class Multiplication:
 
     @property
     def inner(self) -> int:
-        """The number of products whose sum is one entry of L R."""
+        """The number of products that are added for one entry of the matrix product."""
         return self.left.rows if self.left_transposed else self.left.columns
 
 
@@ -186,7 +188,8 @@ class Apply:
 class Term:
     """One term of a :class:`Combination`: a coefficient times a matrix, or times its transpose.
 
-    If the matrix is smaller than the target of the sum, it is extended by zeros on the right and below.
+    If this product is smaller than the target of the combination, it is extended by zeros on the right and
+    below.
     """
 
     coefficient: Expr
@@ -206,7 +209,7 @@ class Term:
 class Combination:
     """The statement target = sum of the terms. Without terms the target becomes zero.
 
-    The old value of the target may occur only in the first term, and only without transposition.
+    If a term contains the old value of the target, it must be the first term, and it must not be transposed.
     """
 
     target: Matrix
@@ -216,12 +219,12 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function that replaces a matrix of a program. It returns the new matrix."""
+"""A function whose argument is a matrix of a program. It returns the matrix that replaces the argument."""
 
 
 @dataclass(frozen=True)
 class ArrayProgram:
-    """The assignments ``body``, which compute the matrix ``result`` from the matrix ``argument``."""
+    """A list of assignments ``body``. They compute the matrix ``result`` from the matrix ``argument``."""
 
     argument: Matrix
     body: tuple[ArrayStatement, ...]
@@ -297,7 +300,8 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first assignment to an array creates the array. Its target must be the whole array.
+    # The first statement that assigns to an array creates the array. The target of this statement must be
+    # the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -305,7 +309,8 @@ def evaluated(
         case Apply():
             values = _applied(statement, domain, arrays, symbols)
         case Combination(terms=terms):
-            # A term may contain the target, so all values are computed before the target is changed.
+            # The old value of the target may occur in a term. All new values are therefore computed before
+            # the target is changed.
             values = [zero] * target.size
             for term in terms:
                 c = evaluate([term.coefficient], domain, symbols)[0]
@@ -313,7 +318,7 @@ def evaluated(
                 for i in range(rows):
                     for j in range(columns):
                         at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
-                        # A smaller matrix is added to the upper left corner of the result.
+                        # A term that is smaller than the target changes only its upper left corner.
                         place = i * target.columns + j
                         values[place] = values[place] + c * other[at]
     for i in range(target.rows):
@@ -327,15 +332,17 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The entry a of the constant matrix C is in row r = ``row`` and column c = ``column`` of C. For the
-        # product M C, a times column r of M is added to column c of the result.
+        # The number a is the entry of the constant matrix in row ``row`` and column ``column``. If the
+        # constant matrix is the right factor, a times column ``row`` of ``matrix`` is added to column
+        # ``column`` of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For the product C M, a times row c of M is added to row r of the result.
+            # If the constant matrix is the left factor, a times row ``column`` of ``matrix`` is added to row
+            # ``row`` of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -372,14 +379,14 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # An entry of the result is a sum of k products and needs k - 1 additions. Entries with k = 0 need
-            # none. If there are many such entries, ``products - size`` is negative and is replaced by 0.
+            # An entry that is a sum of k > 0 products needs k - 1 additions. If each entry has a product, all
+            # entries together need ``products - size`` additions. Otherwise this number may be negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]
             scaled = [n for n, t in zip(sizes, terms, strict=True) if not _is_unit(t.coefficient)]
-            # The first term is only copied and needs no additions. The coefficients 1 and -1 need no
-            # products.
+            # The first term is only copied and needs no additions. A coefficient 1 or -1 needs no
+            # multiplications.
             return {"add": sum(sizes[1:]), "mul": sum(scaled)}
 
 
