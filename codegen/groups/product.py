@@ -31,9 +31,9 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
-    SO(3) x R^3 is not the group of rigid motions, because the rotations in SO(3) x R^3 do not act on the
-    translations. The product has a capability (:mod:`codegen.groups.capabilities`) if all its factors have
-    it.
+    SO(3) x R^3 is not the group of rigid motions. In a rigid motion the rotation acts on the vectors of R^3,
+    but in the direct product it does not. The product has a capability (:mod:`codegen.groups.capabilities`)
+    if all its factors have this capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -50,15 +50,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split the coordinates of an element into the coordinates of the factors.
 
-        The element belongs to the group, to the algebra or to its dual. If x has ``size`` coordinates, it is
-        split by the sizes of the factors, otherwise by their dimensions.
+        If x has ``size`` coordinates, x is split as an element of the group. If not, x is split as an element
+        of the algebra or of its dual.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if all factors have the operations of the class ``capability``, otherwise
+        """Return this product if all factors have the operations of the class ``capability``. If not, return
         None.
         """
         own = super().offers(capability)
@@ -69,8 +69,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Call ``operation`` for each factor, and join the results to one tuple. The arguments of a call are
-        the factor and its coordinates in each of ``args``.
+        """Call ``operation`` for each factor, and join the results to one tuple.
+
+        The first argument of a call is the factor. The remaining arguments are the elements of ``args``,
+        restricted to the coordinates of the factor.
         """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
@@ -96,7 +98,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g, factor by factor."""
+        """Return the derivative of exp(eps x) g at eps = 0, factor by factor."""
         return self._each(LieGroup, lambda f, a, b: f.velocity(d, a, b), x, g)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -120,11 +122,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LeftTranslation, lambda f, a, b: f.Adinv(d, a, b), g, x)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x, factor by factor."""
+        """Return the derivative of g exp(eps x) at eps = 0, factor by factor."""
         return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the rules of all factors that replace products of coordinates."""
+        """Return the replacement rules of all factors. Each rule replaces a product of two coordinates."""
         ends = accumulate(f.size for f in self.factors)
         return tuple(
             relation
@@ -153,15 +155,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x, factor by factor."""
+        """Return the product x y x of elements of the algebra, factor by factor."""
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element x of the algebra with v = x.g, factor by factor."""
+        """Return the element x of the algebra with velocity(x, g) = v, factor by factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations that define the factors. Each equation is a pair of a text and a residual."""
+        """Return the equations of all factors. Each equation is a pair of its text and its residual at g."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
@@ -177,8 +179,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    If the labels had different lengths, the factor aa and the factor a of a nested product a would have the
-    same symbols.
+    Labels of different lengths could give equal symbols if a factor is a product itself: the label aa would
+    mean the 27th factor, and also the first factor of the first factor.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

@@ -1,4 +1,4 @@
-"""Matrices written by a user, as rows of exact rational numbers."""
+"""Conversion of a user's matrix to rows of exact rational numbers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]
 
     The matrix is a list of rows, a sympy matrix or a NumPy array. A float is read as the shortest decimal
     number that rounds to this float. :class:`SceneError` is raised for any other argument, and for an entry
-    that is not rational. ``name`` is the name of the group in the message.
+    that is not rational. The error message contains ``name``, the name of the group.
 
     >>> rational_rows("A", [[0, 0.1], ["1/3", 0]])[0]
     (Fraction(0, 1), Fraction(1, 10))

@@ -1,4 +1,4 @@
-"""Registries, which find a class by its name.
+"""A registry finds a group or an action by the name of its class.
 
 A registry contains the classes of this package and the classes that :func:`codegen.groups.register` has
 added. The classes of this package are imported on first use.
@@ -33,9 +33,9 @@ class Registry(Generic[T]):
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        A second class of the same name replaces the first, because a scene file that is read twice adds its
-        classes twice. :class:`SceneError` is raised if a built-in class has the same name, or if the class
-        has abstract methods.
+        An added class of the same name is replaced. Therefore a scene file that adds classes can be read
+        twice. :class:`SceneError` is raised if a built-in class has the same name, or if the class has
+        abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -68,7 +68,11 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return a dictionary for each class: its ``name``, and its first docstring paragraph ``about``."""
+        """Return a list with a dictionary for each class.
+
+        The key ``name`` gives the name of the class. The key ``about`` gives the first paragraph of the
+        docstring.
+        """
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

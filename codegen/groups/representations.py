@@ -29,20 +29,20 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""A pair: an element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
+"""An element of the algebra with a vector, or an element of the dual of the algebra with a covector."""
 
 
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector contains its components in all copies, copy by copy. The methods of this class act on one copy.
-    The group must have the operations of the class in the attribute ``needs``.
+    A vector lists its components in the first copy, then those in the second copy, and so on. The methods of
+    this class act on one copy. The group must have the operations of the class ``needs``.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. Only semidirect products with this representation can have a covering
-    group.
+    """True if the representation is Ad. If it is not Ad, a semidirect product with this representation offers
+    no covering group.
     """
 
     def __init__(self, copies: int = 1) -> None:
@@ -52,7 +52,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dim(self, group: LieGroup) -> int:
-        """Return the dimension of one copy."""
+        """Return the dimension of one copy of the space."""
 
     @abstractmethod
     def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -70,7 +70,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-T p for the representation rho. This map is the inverse of :meth:`dual`."""
+        """Return rho(g)^-T p for the representation rho. The method is the inverse of :meth:`dual`."""
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -78,17 +78,18 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return x^T p, which is defined by <x^T p, v> = <p, x.v> for all v."""
+        """Return X^T p, where X is the linear map v -> x.v. It satisfies <X^T p, v> = <p, x.v> for all v."""
 
     @abstractmethod
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map J(v, p) in the dual of the algebra, defined by <J(v, p), x> = <p, x.v> for
-        all x.
+        """Return the momentum map J(v, p), an element of the dual of the algebra.
+
+        J is defined by <J(v, p), x> = <p, x.v> for all x in the algebra. For x.v see :meth:`velocity`.
         """
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u, which is the translation of exp(x, u) in the semidirect product.
+        """Return phi(x) u. The exponential of (x, u) in the semidirect product is (exp(x), phi(x) u).
 
         phi(x) is the sum of X^k/(k+1)! over k >= 0, where X is the linear map v -> x.v.
         """
@@ -96,7 +97,7 @@ class Representation(ABC):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
 
-        This method is needed if :meth:`closed` is false.
+        A subclass must implement this method if :meth:`closed` returns False.
         """
         raise self._missing("gradient")
 
@@ -105,18 +106,20 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Apply ``word``, a product of functions of ad_x, to v, where x = (y, u) and v = (z, w).
+        """Apply ``word``, a product of functions of ad_x, to v.
 
-        y and z are elements of the algebra, and u and w are vectors of one copy of the space.
+        x and v are elements of the algebra of the semidirect product. Each is a pair: an element of the
+        group's algebra, and a vector of one copy of the space.
         """
         raise self._missing("series")
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Apply ``word``, a product of functions of ad*_x, to p, where x = (y, u) and p = (m, q).
+        """Apply ``word``, a product of functions of ad*_x, to p.
 
-        m is an element of the dual of the algebra, and q is a covector of one copy of the space.
+        p is a pair: an element of the dual of the group's algebra, and a covector of one copy of the space.
+        For x see :meth:`series`.
         """
         raise self._missing("dual_series")
 
@@ -124,7 +127,7 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="series() and dual_series() if closed() returns True, and gradient() if not",
+            expected="series() and dual_series() if closed() is True, or gradient() if closed() is False",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
@@ -138,9 +141,8 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad. For SO(3) these are copies of R^3.
 
-    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a vector
-    u of one copy are represented by the dual number x + u e with e^2 = 0. A function of ad_(x, u), such as
-    dexp, is computed by the group's formula for this function of ad_x, with the dual number in place of x.
+    Here x.v is the bracket [x, v]. A pair (x, u) of elements of the algebra is represented by the dual number
+    x + u e with e^2 = 0. For functions of ad, the group's formulas are evaluated with these dual numbers.
     """
 
     of_algebra = True
@@ -184,13 +186,13 @@ class AlgebraVectors(Representation):
         return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because ``needs`` admits only groups with closed forms for functions of ad."""
+        """Return True, because the class ``needs`` has closed forms for functions of ad."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        The group's closed form for functions of ad is evaluated with dual numbers.
+        The pairs x and v become dual numbers. The group's closed form is evaluated with these numbers.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
@@ -199,20 +201,20 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Apply ``word``, a product of functions of ad*_x, to p = (m, q).
+        """Apply ``word``, a product of functions of ad*_x, to p.
 
-        The group's closed form for functions of ad is evaluated with dual numbers. An element (y, v) of the
-        algebra becomes the dual number y + v e with e^2 = 0. The covector (m, q) becomes q + m e, because
-        <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>.
+        The group's closed form for functions of ad is evaluated with dual numbers. A pair (y, v) of elements
+        of the algebra becomes the dual number y + v e with e^2 = 0. The pair p = (m, q) becomes q + m e. Then
+        the coefficient of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at (y, v).
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if it consists of the rotation matrices of R^3, otherwise None.
+        """Return the group if its elements are the rotation matrices of R^3. If not, return None.
 
-        For a rotation matrix g of R^3, Ad_g is the matrix g.
+        A rotation matrix g of R^3 acts by multiplication with g, because Ad_g v = g v.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
@@ -261,13 +263,14 @@ class MatrixColumns(Representation):
         return matvec(_transposed(self._matrices(group).hat(d, x)), p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map: the numbers <p, B v> for the matrices B of the basis of the algebra."""
+        """Return the numbers <p, B v>, where B runs over the matrices of the basis of the algebra."""
         basis: tuple[Vector[S], ...] = units(d, group.dim)
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return the last column of the exponential of the matrix [[A, u], [0, 0]], without its last entry.
-        A is the matrix of x.
+        """Return phi(x) u (see :meth:`Representation.translation`).
+
+        Let A be the matrix of x. The exponential of [[A, u], [0, 0]] is [[exp(A), phi(x) u], [0, 1]].
         """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)
@@ -276,9 +279,9 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
 
-        One derivative of the matrix exponential gives both results. Let M = [[A, u], [0, 0]] with the matrix
-        A of x. The derivative of exp at M is a linear map, and the transpose of this map is the derivative of
-        exp at M^T.
+        Let A be the matrix of x, and M = [[A, u], [0, 0]]. The derivative of exp at M is a linear map. The
+        transpose of this map is the derivative of exp at M^T. One evaluation of the transpose gives both
+        results.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -291,7 +294,10 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the number of rows and the entries of [[A, u], [0, 0]], where A is the matrix of x."""
+        """Return the matrix [[A, u], [0, 0]], where A is the matrix of x.
+
+        The first result is the number of rows. The second result contains the entries.
+        """
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
@@ -302,11 +308,7 @@ class MatrixColumns(Representation):
 
 
 class PlaneVectors(MatrixColumns):
-    """Copies of R^2, on which SO(2) acts by rotations.
-
-    The translation of exp(w, u) is c_1(w^2) u + c_2(w^2) w J u, with J(a, b) = (-b, a) and the Stumpff
-    functions c_k.
-    """
+    """Copies of R^2, on which SO(2) acts by rotations."""
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return R^-1 v = R^T v, where R is the rotation matrix of g."""
@@ -321,24 +323,26 @@ class PlaneVectors(MatrixColumns):
         return (v[0] * p[1] - v[1] * p[0],)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return c_1(w^2) u + c_2(w^2) w J u for x = (w,), with J(a, b) = (-b, a) and the Stumpff functions
-        c_k.
+        """Return c_1(w^2) u + c_2(w^2) w J u, where w is the only component of x.
+
+        c_1 and c_2 are Stumpff functions, and J is the rotation by a right angle: J(a, b) = (-b, a).
         """
         z = x[0] * x[0]
         c1, turned = d.call("stumpff1", z), x[0] * d.call("stumpff2", z)
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. The closed form exists because ad_x^3 = -w^2 ad_x, where w is the angular velocity in
-        x.
+        """Return True. For x = (w, u) the identity ad_x^3 = -w^2 ad_x reduces each power series in ad_x to a
+        quadratic polynomial in ad_x.
         """
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        Let x = (w, u), v = (y, q) and J(s, t) = (-t, s). The product ``word`` equals 1 + b ad_x + c ad_x^2,
-        where the numbers b and c depend on w. The result is (y, q + (b + c w J) r) with r = w J q - y J u.
+        Let x = (w, u) and v = (y, q), and let J be the rotation by a right angle: J(s, t) = (-t, s). The
+        product ``word`` is 1 + b ad_x + c ad_x^2, where the numbers b and c depend on w. The result is
+        (y, q + b r + c w J r) with r = w J q - y J u.
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
@@ -350,7 +354,7 @@ class PlaneVectors(MatrixColumns):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the transpose of the linear map v -> series(d, group, word, x, v), applied to ``p``."""
+        """Apply the transpose of the linear map v -> series(d, group, word, x, v) to p."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         turned = c * w

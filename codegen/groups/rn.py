@@ -1,4 +1,4 @@
-"""R^n under addition."""
+"""The group R^n, whose product is the addition of vectors."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 0, because the matrices of any two elements of the algebra have the product zero."""
+        """Return zero, because the matrices X and Y of x and y satisfy X Y = 0, and so X Y X = 0."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -67,7 +67,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return v: the element x with velocity(x, g) = v is v, because velocity(x, g) = x."""
+        """Return v, because velocity(x, g) = x for every x."""
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -75,26 +75,29 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the (n + 1) x (n + 1) matrix of the translation by g: ones on the diagonal, and g in the
-        last column.
+        """Return the (n + 1) x (n + 1) matrix of the translation by g. The matrix maps the column (z, 1) to
+        (z + g, 1).
         """
         return self._affine(d, g, d.rational(1))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the translation, which is the last column of the matrix without its last entry."""
+        """Return the vector of the translation: the first n entries of the last column of the matrix."""
         n = self.dim
         return matrix[n : (n + 1) * n : n + 1]
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix with x in the last column and zeros elsewhere."""
+        """Return the (n + 1) x (n + 1) matrix with the last column (x, 0). The other columns are zero."""
         return self._affine(d, x, d.rational(0))
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the last column of the matrix without its last entry."""
+        """Return the first n entries of the last column of the matrix."""
         return self.element(matrix)
 
     def _affine(self, d: Domain, x: Vector[S], one: S) -> Vector[S]:
-        """Return the matrix with ``one`` on the diagonal and x in the last column."""
+        """Return the (n + 1) x (n + 1) matrix whose diagonal entries are all equal to ``one``.
+
+        The first n entries of the last column are x, and the remaining entries are zero.
+        """
         n, zero = self.dim, d.rational(0)
         rows = [(*(one if i == j else zero for j in range(n)), x[i]) for i in range(n)]
         return (*(a for row in rows for a in row), *((zero,) * n), one)

@@ -1,6 +1,6 @@
 """S^3: the group of unit quaternions, which is the double cover of SO(3).
 
-Its algebra consists of the pure quaternions.
+The Lie algebra of S^3 consists of the pure quaternions.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). In the formulas below, g^c
-    is the conjugate of g, z = x.x, and c_k are the Stumpff functions.
+    is the conjugate of g, z = |x|^2, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x y - y x = 2 (x cross y), and ad*_x mu = 2 (mu cross x).
     - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
@@ -66,11 +66,11 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(square * b - factor * a for a, b in zip(x, y, strict=True))
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the conjugate quaternion."""
+        """Return the conjugate of g, which is the inverse of a unit quaternion."""
         return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return 4 x.x, the square of the angle by which the quaternion exp(x) rotates vectors."""
+        """Return 4 |x|^2. The quaternion exp(x) rotates vectors by the angle 2|x|."""
         four: S = d.rational(4)
         return four * dot(x, x)
 
@@ -102,9 +102,10 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = dexp_{-x} mu = mu - c_2 v + c_3 (2x cross v) with v = 2x cross mu.
+        """Return dexp*_x mu. On S^3 it is equal to dexp_{-x} mu.
 
-        c_2 and c_3 are the Stumpff functions of 4 |x|^2.
+        The formula is mu - c_2 v + c_3 (2x cross v) with v = 2x cross mu. c_2 and c_3 are Stumpff functions,
+        evaluated at 4 |x|^2.
         """
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
@@ -133,14 +134,17 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x with v = x.g: the imaginary part of the product of v and the conjugate of g."""
+        """Return the element x of the algebra with (0, x) g = v.
+
+        It is the imaginary part of v g^c, where g^c is the conjugate of g.
+        """
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2. The length of the result is 1 + O(e^3)."""
+        """Return g/|g| up to an error of O(e^3), where e = 1 - |g|^2. The result is (1 + e/2 + 3 e^2/8) g."""
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation |q|^2 = 1 for the quaternion q = g, as a pair of its text and its residual."""
+        """Return one pair: the text of the equation |q|^2 = 1, and the residual |g|^2 - 1."""
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)
