@@ -16,8 +16,8 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
     """Return the emitted function that computes exp(a) y for a matrix a and a vector y.
 
-    The exponential is computed as a product of equal factors. If the norm of the matrix is so large that more
-    than 2^HALVINGS factors are needed, all entries of the result are NaN.
+    The matrix is divided by 2^s, so that its norm is small. The vector is then multiplied 2^s times by the
+    Taylor polynomial of exp(a/2^s). If s would be larger than HALVINGS, all entries of the result are NaN.
     """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
@@ -26,21 +26,21 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
     # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``. The
-    # lowest sufficient degree is chosen. Each iteration adds a test for a lower degree. The emitted code
-    # evaluates this test before the tests that were added earlier.
+    # emitted code tests the lowest degree first, so it chooses the lowest sufficient degree. The loop below
+    # adds the tests in reverse order.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
-    # Let b be the scaled matrix and m the degree. Horner's rule computes p, the sum of (m!/j!) b^(j - 1) y
-    # over j = 1, ..., m. The integers m!/j! are exact. The rounding errors of coefficients 1/j! would be
-    # equal in all steps, and would therefore accumulate.
+    # Let b be the scaled matrix, m the degree, and v the vector ``result``. Horner's rule computes p, the sum
+    # of (m!/j!) b^(j - 1) v over j = 1, ..., m. The integers m!/j! are exact. Coefficients 1/j! would be
+    # rounded. Their errors would be the same in every step, and would therefore accumulate.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # After the loop ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
+    # After Horner's rule, ``weight`` is m!. The Taylor polynomial of exp(b) v is v + b (p/m!).
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -51,7 +51,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         For(_ROW, whole(n), (Assign(result[_ROW], result[_ROW] + work[_ROW]),)),
     )
     computed = (
-        # The product with ``scale``, a power of two, does not change the digits of an entry.
+        # ``scale`` is a power of two, so this product has no rounding error.
         For(_PLACE, whole(entries), (Assign(b[_PLACE], a[_PLACE] * scale),)),
         Assign(degree, chosen),
         Assign(result, y),
@@ -63,8 +63,8 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
-            # The number of halvings is limited, because each halving doubles the time of the computation. If
-            # the norm is still too large at the limit, the result is filled with NaNs below.
+            # Each halving of the matrix doubles the computing time, so at most HALVINGS halvings are made. If
+            # the norm is then still too large, all entries of the result are NaN.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -88,8 +88,8 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute ``norm``, the largest sum of absolute values in a row of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
-    # A large matrix is stored with all its entries, and loops form the sums. For a small matrix, each row has
-    # its own emitted sum, which contains only the entries that may be non-zero.
+    # For a large matrix, two nested loops compute the row sums. For a small matrix, the emitted code contains
+    # one sum for each row, without the entries that are always zero.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)

@@ -1,7 +1,7 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ from the emitted ones
-in the last digit. Such a difference may change the number of sweeps of an iteration by one. The executor
+The function :func:`codegen.ir.domain.stumpff` computes the Stumpff functions with other rounding errors. The
+difference may change the number of iterations in an implicit step. The executor of the emitted statements
 (:mod:`codegen.run.execute`) therefore uses the functions of this module.
 """
 
@@ -19,8 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
-    The argument of a Stumpff function may depend on the result of another Stumpff function. ``chain`` is the
-    largest number of functions that are nested in this way (:mod:`codegen.ir.angle_depth`).
+    Stumpff functions are nested if the argument of one depends on the result of another. ``chain`` is the
+    largest number of nested Stumpff functions (:mod:`codegen.ir.angle_depth`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -30,8 +30,8 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The emitted functions have the same branches, so their results equal the results of this function in
-        # every bit.
+        # The emitted functions contain the same tests, so their results are exactly equal to the results of
+        # this function.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -39,11 +39,11 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
-        # A single function uses its own switch point from the series to the closed form. A call for several
-        # functions uses the switch point of c_0 for all of them.
+        # For z up to a switch point, c_k is computed by its Taylor polynomial. If several functions are
+        # requested, the switch point of c_0 is used for all of them.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # For z above ``self.limit`` the Stumpff functions are NaN, which makes the step fail.
+        # For z above ``self.limit`` the results are NaN, so the step fails.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -82,8 +82,8 @@ class EmittedFloats(FloatDomain):
 
     def _curvature(self, k: int, z: float) -> float:
         if z > 1.0:
-            # The second derivative of c_k is a combination of three Stumpff functions. For small z their
-            # differences lose digits, so a Taylor polynomial is evaluated instead.
+            # The second derivative of c_k is a combination of three Stumpff functions. For small z this
+            # combination loses digits, so a Taylor polynomial is evaluated below.
             a, b, c = self.together([k - 2, k - 1, k], z)
             return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
         *rest, total = curvatures(k)
@@ -92,8 +92,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For small z the difference loses digits, so a
-        # Taylor series is used.
+        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For small |z| the difference loses digits, so a
+        # Taylor polynomial is evaluated below.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
@@ -101,15 +101,17 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Horner's rule is used here as in the emitted function, so that every rounding agrees.
+        # The emitted function uses Horner's rule, too, so all roundings agree.
         for term in reversed(rest):
             total = term + z * total
         return total
 
 
 def _hyperbolic(k: int, z: float) -> float:
-    """Return the Stumpff function c_k(z) for z < 0. It is computed by hyperbolic functions. For c_3 and small
-    |z|, a Taylor polynomial is used."""
+    """Return the Stumpff function c_k(z) for z < 0, computed by hyperbolic functions.
+
+    For k = 3 and z >= -SWITCH[3], the Taylor polynomial is used instead.
+    """
     r = math.sqrt(-z)
     if k == 0:
         return math.cosh(r)
@@ -163,7 +165,7 @@ def _chain(terms: Sequence[float], w: float) -> float:
     w2, total = w * w, 0.0
     pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
     for number, pair in enumerate(reversed(pairs)):
-        # If the number of terms is odd, the highest term is added alone.
+        # If the number of terms is odd, the last pair contains only one term.
         value = pair[0] + w * pair[1] if len(pair) == 2 else pair[0]
         total = value if number == 0 else value + w2 * total
     return total

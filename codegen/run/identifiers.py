@@ -1,8 +1,8 @@
 """Identifiers in a target language: legal and unique names for the symbols of a kernel.
 
 The code around a kernel uses only names that are legal in every target language. The names in a kernel may be
-illegal. Therefore they are replaced by identifiers that differ from all other names of the unit (the
-program).
+illegal. Therefore each name in a kernel is replaced by a legal identifier that differs from all other names
+in the emitted function.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """A table from the kernel's names to their identifiers in one function.
+    """The identifiers that replace the names of the kernel in one function.
 
     An identifier is a variable, or an entry ``array[k]`` of an array.
     """
@@ -26,14 +26,14 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier that replaces ``name``. Only names of the kernel are replaced."""
-        # A kernel name that is not in the table causes a KeyError. It must not be used as it is, because it
-        # may be an illegal identifier.
+        # If a name of the kernel has no identifier, a KeyError is raised. The name itself must not be
+        # emitted, because it may be illegal.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable that contains the value of a name.
+        """Return the variable that contains the value of ``name`` in the emitted code.
 
-        If the identifier of the name is ``array[k]``, the variable is ``array``.
+        If the value is the entry ``array[k]`` of an array, the variable is ``array``.
         """
         return self.of(name).partition("[")[0]
 
@@ -45,7 +45,7 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return a table from the name of each function of the unit to the identifiers in this function.
+    """Return the identifiers for each function of the unit. The keys are the names of the functions.
 
     No identifier is a ``reserved`` word.
     """
@@ -58,8 +58,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # The scalar arguments get their identifiers first. Therefore these identifiers do not depend on the
-    # kernel's names in the body of the function.
+    # The identifiers of the scalar arguments are chosen first. The kernel's names in the body of the function
+    # therefore do not influence this choice.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     # Statements are visited in the order of the code, so that equal programs get equal identifiers.
@@ -67,13 +67,14 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # The array contains the results of an outlined function. The kernel calls entry k ``name.k``.
+            # The array contains the results of an outlined function. In the kernel, the result with the
+            # index k has the name ``name.k``.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
-                # The kernel's name for an input of an outlined function begins with the name of the function
-                # and a dot. This prefix is not needed inside the function.
+                # In an outlined function, the name of an input begins with the name of the function and a
+                # dot. The identifier does not need this prefix.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

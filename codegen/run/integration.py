@@ -1,9 +1,9 @@
 """A run to a given end time, with output at given times, with events, and with a largest number of steps.
 
 Step control chooses the step sizes between two bounds. Without step control, all steps except the last have
-the same size. A run may end early: at its limit of steps, at an event, or after a failure. It returns the
-last good state, the time of this state, and the size of the next step. With these values the caller can
-continue the run.
+the same size. A run ends early if the largest number of steps is reached, if an event ends it, or if a step
+fails. The caller receives the last accepted state and its time, and can continue the run from there. A run
+with step control also returns the size of the next step.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # Every event function may have an event in one step, so the buffer needs room for one event of each.
+    # All event functions may have an event at the same time. The buffer needs one entry for each of them.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -75,7 +75,8 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
 class _Constant:
     """Builds the run with steps of constant size. The attributes are variables of the emitted function."""
 
-    # ``t`` contains the initial time and receives the final time.
+    # ``t`` is an argument: the caller stores the initial time in it, and the run replaces it by the final
+    # time.
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
     now, end, limit = real("now"), real("end"), count("limit")
     start, length, following, left = real("begin"), real("size"), real("then"), real("left")
@@ -94,7 +95,8 @@ class _Constant:
         chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
         parameters = (state, *chosen, *observation.outputs, *observation.buffers)
         parameters += (*plan.counted, self.completed)
-        # The last step ends exactly at ``end``, so the test whether the run goes on needs no tolerance.
+        # The run continues until ``now`` equals ``end``. No tolerance is needed, because the last step ends
+        # exactly at ``end``.
         moving = either(self.now < self.end, self.now > self.end)
         # The sign of h is ignored: the end time determines the direction of the run.
         numbers = both(*(is_finite(x) for x in (self.now, self.end, self.length)), self.length > 0.0)
@@ -107,7 +109,8 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If ``own_step`` is False, each step is a call of ``run``, which declares its own memory.
+            # If ``own_step`` is False, no memory is declared here. Each step calls ``run``, and this function
+            # declares its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -120,11 +123,11 @@ class _Constant:
 
     @property
     def own_step(self) -> bool:
-        """True if the emitted function calls the function of a step. False if it calls ``run`` for each
-        step."""
+        """True if each step calls the emitted function that makes one step. False if each step calls
+        ``run``."""
         plan = self.plan
-        # If the kernel is inlined in ``run``, a step has no function of its own. If flows are deferred or the
-        # momentum is converted, ``run`` executes further statements before and after the step.
+        # If the kernel is inlined in ``run``, there is no separate function for one step. If flows are
+        # deferred or the momentum is converted, a step also needs the statements of ``run`` around the step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -132,10 +135,11 @@ class _Constant:
         signed = call("copysign", self.length, self.left)
         near = size(self.left) <= (1.0 + NEARLY) * self.length
         following = exact_time(self.start, self.done + 1, self.taken)
-        # The sum of the time and a very small step may be rounded to the time itself. The run would then
-        # never end.
+        # A very small step may not change the time, because the new time is rounded. The run would then never
+        # end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
-        # The run ends early if the step is too short to change the time, or at its limit of steps.
+        # The run ends early if the step is too short to change the time, or if the largest number of steps is
+        # reached.
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
             Assign(self.left, self.end - self.now),
@@ -158,15 +162,16 @@ class _Constant:
     def moved(self) -> list[Statement]:
         """Return the statements that compute the state after the step."""
         plan, trial = self.plan, self.trial
-        # The step advances a copy, because the search for events inside the step begins at the old state.
+        # The step is made with a copy of the state. The search for events also needs the state before the
+        # step.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
-            # The step gets the arguments of the caller. Only the time and the step size are replaced by those
-            # of the current step.
+            # The arguments of the caller are passed to the step. Only ``t`` and ``h`` are replaced: by the
+            # time and the size of the current step.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # The call of ``run`` requests neither a trajectory nor the number of completed steps.
+        # The arguments of ``run`` for a trajectory and for the number of completed steps are omitted.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -181,15 +186,15 @@ class _Constant:
         """Return the statements that accept a step."""
         return (
             Assign(self.plan.state(), self.trial),
-            # If an event ends the run, ``stop`` is the time of the event. Otherwise it is the end of the
-            # step.
+            # If an event ends the run, ``stop`` is the time of the event. Otherwise ``stop`` is the time at
+            # the end of the step.
             Assign(self.now, self.stop[0]),
             Assign(self.done, self.done + 1),
         )
 
 
 class _Adaptive(Controlled):
-    """Builds the emitted run with step control, in which each accepted step is searched for events."""
+    """Builds the run with step control, output times and events."""
 
     stop = real("reached_time", 1)
 
@@ -208,9 +213,9 @@ class _Adaptive(Controlled):
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements that are executed before the first step."""
         observation, state = self.observation, self.plan.state()
-        # LEAST = 0 means that the step size has no lower bound.
+        # LEAST may be zero. The step size then has no lower bound.
         ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
-        # If both tolerances were zero, every step with an error would be rejected.
+        # If both tolerances were zero, every step would be rejected.
         positive = either(RTOL > 0.0, ATOL > 0.0)
         return (
             *super().begin(),
@@ -218,7 +223,7 @@ class _Adaptive(Controlled):
             If(negated(both(ordered, positive)), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # The first step size is restricted to [LEAST, GREATEST], too.
+            # The step size given by the caller may be outside the interval [LEAST, GREATEST].
             *self.limited(),
         )
 
@@ -234,18 +239,19 @@ class _Adaptive(Controlled):
         observed = self.observation.observe(
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
-        # If an event ends the run, ``stop`` is the time of the event, and the step ends there. Otherwise
-        # ``stop`` is the end of the step.
+        # If an event ends the run, ``stop`` is the time of the event. Otherwise ``stop`` is the time at the
+        # end of the step.
         accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
         return (observed, If(self.observation.sound, accepted))
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed if a step is rejected."""
-        # A rejected step of size LEAST ends the run. Only the last step of a run may be shorter than LEAST.
+        # The run ends if a step of size LEAST is rejected. The test is ``<=``, because the last step of a run
+        # may be shorter than LEAST.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),
             If(short, (Assign(STATUS, code(LEAST_STEP)),)),
-            # Step control may propose a step shorter than LEAST.
+            # Step control may have reduced the step size to a value below LEAST.
             If(self.length < LEAST, (Assign(self.length, LEAST),)),
         )

@@ -2,8 +2,8 @@
 
 Column k of the matrix is the image of the unit vector k under the linearised step. A tangent vector at the
 initial state is called a variation. In an implicit step, the derivatives of the unknowns in the direction of
-a variation satisfy linear equations. These equations are solved by fixed-point iteration. If this iteration
-does not converge, the call fails, even if Newton's method would converge.
+a variation satisfy linear equations. These equations are always solved by fixed-point iteration, and not by
+Newton's method. If the iteration does not converge, the call fails.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     requested."""
     if plan.kernel.vary is None:
         return ()
-    # The kernel ``vary`` (the linearised step) has other inputs, outputs and loops than the step itself, so
-    # it needs a plan of its own.
+    # ``plan.kernel.vary`` is the kernel of the linearised step. Its inputs and outputs differ from those of
+    # the step, so it has its own plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -64,8 +64,8 @@ def _vector(varying: Plan) -> Term:
 def vary(plan: Plan, varying: Plan) -> Function:
     """Return the function that maps a variation to its image under the linearised step or substep."""
     state, vector, n = plan.state(), _vector(varying), plan.size
-    # The inputs of the linearised kernel are the n numbers of the state, followed by the numbers of the
-    # variation. Its outputs are only the numbers of the new variation.
+    # The linearised kernel has two vectors as inputs: first the state with n numbers, and then the variation.
+    # The outputs are the numbers of the new variation.
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
     body: list[Statement] = [
@@ -73,7 +73,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # Sweeps are not counted here, because the statistics describe only the integration.
+        # The iterations in ``vary`` are not counted, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
         # The test comes before the assignment, so that ``vector`` is unchanged after a failure.
@@ -95,8 +95,8 @@ class _Jacobian:
         self.plan, self.vector = plan, _vector(varying)
         self.dim = self.vector.shape[0]
         self.given = real("inputs", len(plan.kernel.inputs))
-        # The function ``vary`` expects the run-time inputs as a function of time. The given values are passed
-        # as a constant function.
+        # The caller gives the values of the run-time inputs. The function ``vary`` needs a function of time,
+        # so it receives a constant function with these values.
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
@@ -105,7 +105,7 @@ class _Jacobian:
         matrix = real("jacobian", dim * dim)
         # As in the public function ``step``, the run-time inputs are constant during the step.
         given = (self.given,) if plan.held else ()
-        # Each call of ``vary`` computes one column, but the matrix is stored by rows.
+        # ``vary`` has computed one column of the matrix. The matrix is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -117,8 +117,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # In C the caller's array of inputs is ``const``. An input function receives its data through a
-            # pointer without ``const``, so the inputs are copied.
+            # The given inputs are copied. In C the caller's array is ``const``, but an input function
+            # receives a pointer to data that are not ``const``.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -139,17 +139,16 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # The solutions of a substep are initial guesses only for the same substep, so each substep has its
-        # own memory.
+        # The initial guesses in a memory suit only one substep, so each substep has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # These substeps are made only to find the states at which ``vary`` is evaluated, so the statistics of
-        # the caller do not count them.
+        # These substeps only compute the states at which ``vary`` is evaluated. They are not counted in the
+        # statistics of the caller.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
-            # A substep reads and writes the momentum in the body frame, but ``vary`` reads it in the space
+            # A substep needs the momentum in the body frame, but ``vary`` needs the momentum in the space
             # frame. Therefore the state is converted before and after each substep.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
@@ -162,7 +161,7 @@ class _Jacobian:
             # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # After a failure the index is increased too, but the loop ends and does not read it again.
+            # After a failure the loop ends, so the increased index is not used.
             Assign(part, part + 1),
         )
         return [

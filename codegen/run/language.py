@@ -1,21 +1,21 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-Stopping rules, warm starts, continuation, runs and step control are written once in this representation.
-Printers translate it to C and Python. The module :mod:`codegen.run.execute` executes it with any kind of
-numbers.
+The code around a kernel contains, for example, stopping rules and step control. It is written once in this
+representation. Printers translate it to C and Python. The module :mod:`codegen.run.execute` executes it, for
+example with doubles or with exact numbers.
 
-The rules of the representation also suit array languages, where a loop is a ``while_loop`` and a branch is a
-``select``:
+The following rules make a translation to array languages possible, too. There, a loop is a ``while_loop`` and
+a branch is a ``select``.
 
-- A loop ends only at its test, which may read a status or flag. No statement leaves a loop from its middle.
-- A :class:`Return` is at the end of a function, or it is the only statement of an :class:`If`. This If is not
-  inside a loop or another If. A target language may compute the statements after this If and then discard
-  their results.
+- A loop ends only at its test, which may read a status or flag. There is no ``break`` statement.
+- A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. Such an If is
+  not inside a loop or another If. If its test holds, an array language may still execute the statements after
+  the If and discard their results.
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
-- Where C computes an infinity or a NaN, Python may raise an exception. ``Function.guard`` determines the
-  result of a function after an exception of this kind.
+- Python may raise an exception where C computes an infinity or a NaN. ``Function.guard`` determines the
+  result of a function in this case.
 """
 
 from __future__ import annotations
@@ -46,14 +46,15 @@ class Array:
 
 @dataclass(frozen=True)
 class For:
-    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
+    """A loop: the body is executed for index = 0, ..., count - 1.
 
+    - ``reverse`` is True if the index runs from count - 1 down to 0.
     - ``independent`` is True if several iterations may be executed at once by vector instructions.
     - ``parallel`` is True if the iterations may be executed in any order and on several processors. The
       iterations change no scalar variable from outside the loop, except those in ``reductions``.
-    - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. Each iteration combines
-      the variable with a value by this operation.
-    - ``when`` is a test or None. The loop is executed in parallel only if this test holds at run time.
+    - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. The variable is the sum
+      or the maximum of values that the iterations compute.
+    - ``when`` is a test or None. If it is a test, the loop is executed in parallel only if the test holds.
     """
 
     index: Term
@@ -79,8 +80,7 @@ class While:
 
     test: Term
     body: tuple[Statement, ...]
-    # If ``at_least_once`` is True, the body is executed before the first test. Therefore ``test`` may read
-    # variables that only the body assigns.
+    # If ``at_least_once`` is True, ``test`` may read variables that are assigned only in the body.
     at_least_once: bool = False
 
 
@@ -133,8 +133,8 @@ Body = tuple[Statement, ...]
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``.
 
-After an arithmetic error, a function with RAISES_STATUS returns the status NOT_FINITE. With RAISES_NAN, its
-result and the arrays that it changes are filled with NaNs.
+After an arithmetic error, a function with RAISES_STATUS returns the status NOT_FINITE. With RAISES_NAN, the
+return value is NaN, and the arrays that the function changes are filled with NaNs.
 """
 
 
@@ -143,11 +143,12 @@ class Function:
     """A function of the emitted code.
 
     - ``about`` is the comment above the function in the emitted code.
-    - ``returns`` is the kind of its result; None if it returns nothing.
-    - ``public`` functions can be called from outside the unit.
-    - ``often`` is True for functions that are called in each step and should be inlined.
-    - ``near`` is True for functions that call sines, cosines and Stumpff functions in a variant without
-      branches. The variant returns NaN for arguments that are not near zero (:mod:`codegen.run.batch`).
+    - ``returns`` is the kind of the result. It is None if the function returns nothing.
+    - ``public`` is True if the function can be called from outside the unit.
+    - ``often`` is True if the function is called in each step and should be inlined.
+    - ``near`` is True if the function calls special variants of the sine, the cosine and the Stumpff
+      functions. These variants have no branches. They return NaN for arguments that are not near zero
+      (:mod:`codegen.run.batch`).
     """
 
     name: str
@@ -155,7 +156,7 @@ class Function:
     parameters: tuple[Term, ...]
     body: Body
     returns: Kind | None = None
-    # Without a guard, the exception of an arithmetic error reaches the caller of the function.
+    # If ``guard`` is empty, the function does not catch the exceptions of arithmetic errors.
     guard: str = ""
     # A function that is not public is not visible outside the unit, so compilers may inline it.
     public: bool = False
@@ -167,8 +168,9 @@ class Function:
 class Record:
     """A record type. A record contains values that the emitted functions keep from one call to the next.
 
-    ``fields`` contains a pair for each value: its name with its type, and its comment in the emitted code.
-    The caller of the emitted code creates the records of a public type.
+    ``fields`` contains one pair for each value. The first entry of the pair is a term with the name and the
+    type of the value. The second entry is a comment for the emitted code. The caller of the emitted code
+    creates the records of a public type.
     """
 
     name: str
@@ -199,8 +201,7 @@ class Unit:
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # The keys are the names of the functions. Printers look up a function by its name at each call, so a
-    # dictionary is used.
+    # The functions by their names. When a printer translates a call, it looks up the called function here.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -226,7 +227,7 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 def direct(statement: Statement) -> tuple[Term, ...]:
     """Return the terms of a statement. Terms in the bodies of a loop or branch are not included.
 
-    Terms that the statement assigns come first.
+    The terms that the statement assigns come before the terms that it only reads.
     """
     match statement:
         case Assign(target, term):
@@ -234,7 +235,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # ``when`` is None if no test decides on the parallel execution of the loop.
+            # Without a condition for parallel execution, ``when`` is None.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -257,11 +258,11 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body, and all its subterms."""
-    # The term for a sum over many unknowns may be nested more deeply than Python's recursion limit allows.
-    # Therefore the list ``waiting`` is used as a stack, without recursion.
+    # A sum over many unknowns is a deeply nested term. A recursive function could exceed Python's recursion
+    # limit, so the list ``waiting`` is used as a stack.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
-        # Terms are taken from the end of the list, so they are not yielded in the order of the code.
+        # The last term of the list is taken, so the terms are not yielded in the order of the code.
         term = waiting.pop()
         yield term
         waiting += term.args
@@ -269,7 +270,8 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the variable that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # A term for an entry, a part or a field has arguments. The first argument is the array or the record.
+    # An entry of an array and a field of a record are terms with arguments. The first argument is the array
+    # or the record.
     while target.args:
         target = target.args[0]
     return target
@@ -283,7 +285,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # A loop assigns its index in its head.
+        # A For loop assigns its index.
         case For(index):
             return (index,)
         case Call(results=results):
@@ -296,10 +298,11 @@ def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement reads. Names that occur only in the bodies of a loop or branch are not
     included.
 
-    A statement that assigns one entry of an array counts as reading the array.
+    If a statement assigns one entry of an array, the name of the array is included.
     """
     given = assigned(statement)
-    # The assignment of one entry keeps all other entries, so the new array depends on the old array.
+    # A statement that assigns a whole array does not read it. If one entry is assigned, the array keeps its
+    # other entries, so the array counts as read.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:
