@@ -153,7 +153,7 @@ static int fast_heavy_top_splitting_blanes_moan_rkn6a_all_finite(const double *x
     return 1;
 }
 
-/* One step without the deferred flows. */
+/* Apply all flows of one step except the deferred flows. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_advance(double state[static 12],
     double h, double lead_h)
 {

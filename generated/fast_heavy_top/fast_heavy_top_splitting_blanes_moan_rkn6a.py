@@ -136,7 +136,7 @@ def _stumpff_12(z):
 
 
 def _advance(state, h, lead_h):
-    """One step without the deferred flows."""
+    """Apply all flows of one step except the deferred flows."""
     try:
         g01 = state[1]
         g02 = state[2]
