@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Recipe:
-    """Facts for the header comment. They depend only on the scene, the method and the options.
+    """The data for the header comment of an emitted file.
 
-    A date or a path is not included, so that two emissions give the same file.
+    The data contain no date and no path, so emitting twice gives the same file.
 
     - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
     - ``left_out`` has one line for each operation or argument that the module does not need.
@@ -39,13 +39,15 @@ LONGEST_STATE = 64
 """The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
-"""If an initial state has more than :data:`LONGEST_STATE` coordinates, and at most MOST_ENTRIES of them are
-not zero, the usage example sets only these coordinates.
+"""The largest number of coordinates that the usage example sets one by one.
+
+This limit is for states with more than :data:`LONGEST_STATE` coordinates. The example sets their nonzero
+coordinates only.
 """
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""A usage example that does not set the initial state contains this comment."""
+"""The comment in the usage example if the initial state has too many nonzero coordinates to set them."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
@@ -60,18 +62,18 @@ def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | Non
     """
     if len(initial) <= LONGEST_STATE:
         return None
-    # The usage example first sets all entries of a long state to zero, and then the entries listed here.
+    # The usage example creates a state of zeros, and assigns the nonzero entries.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
     # Many assignments would make the usage example long, so it refers to the manifest instead.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 
 def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
-    """Return the lines of one header entry: the word, then its sentences with a hanging indent."""
+    """Return the lines of one header entry. The word is on the left, and the sentences are on its right."""
     indent = " " * 12
     lines: list[str] = []
     for number, sentence in enumerate(sentences):
-        # The first line starts with ``word``. Spaces after ``word`` align it with the other lines.
+        # The first sentence starts after ``word``, and the other sentences start in the same column.
         start = indent if number else f"{word + ':':<12}"
         lines += textwrap.wrap(
             sentence,
@@ -93,10 +95,10 @@ def header(
     stack: str = "",
     inputs: Sequence[str] = (),
 ) -> list[str]:
-    """Return the recipe's lines up to the usage example.
+    """Return the lines of the header, without the usage example.
 
     ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
-    run-time inputs. ``stack`` states how much stack memory a call needs at most. Lines have at most ``width``
+    run-time inputs. ``stack`` states a bound on the stack memory of a call. Lines have at most ``width``
     characters, but long words are not broken.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)

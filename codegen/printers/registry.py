@@ -1,8 +1,8 @@
 """The targets (languages) of the compiler.
 
-To add a target here, write a package beside this file with a module ``target.py``, and add a line to
-:data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
-``orderconds.targets``.
+A built-in target is a package in the folder of this file. It has a module ``target.py`` and an entry in
+:data:`BUILT_IN`. A package outside orderconds adds a target in one of two ways: it calls :func:`register`, or
+it declares an entry point in the group ``orderconds.targets``.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def register(new: Target) -> Target:
     """
     # The new name must also differ from the names of built-in targets and of targets from entry points.
     known = {each.name: each for each in targets()}
-    # Registering an equal target again is allowed.
+    # A target may be registered twice, if both objects are equal.
     if known.get(new.name, new) != new:
         raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
@@ -48,7 +48,7 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets. The built-in targets come first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
-    # A target that is registered twice is listed once, because names are the keys.
+    # The dictionary has one entry for each name, so a target that was added twice is returned once.
     return tuple({each.name: each for each in every}.values())
 
 
@@ -89,7 +89,7 @@ def target(name: str) -> Target:
 
 
 def observable() -> Target:
-    """Return the first target in which the solved unknowns of an implicit step can be observed."""
+    """Return the first target of :func:`targets` that has an ``observer``."""
     # The built-in target Python has an observer, so ``next`` always finds a target.
     return next(each for each in targets() if each.observer)
 

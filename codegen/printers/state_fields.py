@@ -1,4 +1,4 @@
-"""Lines for the header of emitted code that describe the state and the run-time inputs."""
+"""Describes the state and the run-time inputs, for the header of emitted code."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state: indices, name and meaning."""
+    """Return a line for each field of the state. The line contains the indices, the name and the meaning."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -20,12 +20,13 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the names of the run-time inputs, and the times at which a step evaluates them.
+    """Return a line that contains the names of the run-time inputs and the times at which they are evaluated.
 
-    If there are no inputs, the result is empty.
+    The tuple is empty if there are no inputs.
     """
     if not kernel.inputs:
         return ()
-    # The header shows the names of the scene, not the identifiers of the emitted code.
+    # The header is for the author of the scene, so it uses the names in the scene. Emitted code may use
+    # different identifiers.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, evaluated at {read}",)

@@ -28,8 +28,9 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 
 @dataclass(frozen=True)
 class Target:
-    """A target language. Its functions are given as texts ``module:function`` and are imported when they are
-    used.
+    """A target language.
+
+    A function is given as a text ``module:function``, and is imported when it is used.
 
     - ``name`` is the name of the target in commands.
     - ``title`` is the name of the target in headings.
@@ -37,8 +38,8 @@ class Target:
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.loader.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` is the largest number of steps in a convergence test. A run with this number of steps
-      takes about one second.
+    - ``most_steps`` is the largest number of steps in a convergence test. This number of steps takes about
+      one second.
 
     The other fields are optional:
 
@@ -48,7 +49,7 @@ class Target:
       of each substep.
     - ``stack`` is a regular expression that matches the bound on the stack in the file of the step. The first
       group of the match is this bound in bytes.
-    - ``batches`` is True if modules can have a function for many systems.
+    - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.
     """
@@ -70,8 +71,8 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # Listing targets must not import printers and templates, so the function is imported when it is
-        # called.
+        # A list of the targets must not import printers and templates. The import takes place only when this
+        # property is read.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property
@@ -105,7 +106,7 @@ class Target:
 
     @property
     def solutions(self) -> Solutions:
-        """The function that returns the solved unknowns of a step.
+        """The function that makes one step and returns the solved unknowns of each substep.
 
         ValueError is raised if ``observer`` is empty.
         """

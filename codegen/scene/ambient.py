@@ -14,12 +14,13 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def ambient(problem: Problem) -> Problem:
-    """Return the ambient equation of a problem as a problem on R^n. The result does not use the group of
-    ``problem``.
+    """Return the ambient equation of a problem as a problem on R^n, whose group is R^n.
 
-    A numerical solution of the ambient equation leaves the manifold. Its distance from the manifold is about
-    as large as the integration error. :class:`SceneError` is raised for a scene without formulas in
-    coordinates, such as a scene with large matrices.
+    The exact solution stays on the manifold of ``problem``, but a numerical solution leaves this manifold.
+    The distance from the manifold is about as large as the integration error.
+
+    :class:`SceneError` is raised if the scene has no formulas in coordinates. An example is a scene with
+    large matrices.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
@@ -29,8 +30,8 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # ``problem.matrices`` contains a formula for the velocity itself. This formula is shorter than
-            # the product of the generator and the state.
+            # ``problem.matrices`` contains a formula for the velocity y'. It is shorter than the formula that
+            # multiplies the generator by the state.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)
@@ -42,7 +43,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # A problem without run-time inputs may have no ``open_roots``.
+        # The tuple ``open_roots`` may be empty if the problem has no run-time inputs.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

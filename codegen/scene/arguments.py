@@ -46,8 +46,8 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         )
     try:
         width = len(action.velocity(domain, group, zero, y))
-    # If the point has a wrong number of coordinates, the formula of the action may raise ValueError or
-    # IndexError.
+    # The formula of the action may raise an error for a wrong number of coordinates. The width -1 then
+    # leads to the SceneError below.
     except (ValueError, IndexError):
         width = -1
     if width != len(y):

@@ -17,12 +17,12 @@ class LoadedModule(Protocol):
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
-    """Make one step and return the solved unknowns of all implicit blocks, one list for each substep.
+    """Make one step and return a list for each substep: the values of the unknowns that it has solved.
 
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
-    # Each substep calls the emitted function ``_remember`` once, with the solved unknowns of all blocks.
+    # Each substep calls the emitted function ``_remember`` once, with all unknowns that it has solved.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
@@ -36,5 +36,5 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
         integrator.run(list(state), h, 1, t)
     finally:
         vars(module)["_remember"] = remember
-    # A dictionary keeps the order in which its keys were added: the order of the substeps.
+    # A dictionary keeps the order in which keys were added, so the lists have the order of the substeps.
     return list(solved.values())

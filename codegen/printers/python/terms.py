@@ -1,8 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
-Terms are names, literals, entries of lists, attributes, and calls of the standard library. In single
-precision, each constant is a float32 object of NumPy with a name, such as ``C1``. Literals cannot be used,
-because the product of a float32 and a Python float may be a double.
+In double precision, a real constant is printed as a literal. In single precision, it is printed as a name
+such as ``C1``, which refers to a float32 object of NumPy. A literal would be a Python float, and the product
+of a float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -18,7 +18,11 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """The constants of a module. In single precision, ``digits`` maps the name of a constant to its text."""
+    """The constants of a module.
+
+    In single precision, ``digits`` maps the name of each constant to its value as text, such as ``C1`` to
+    ``0.5``.
+    """
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
         self.precision, self.taken = precision, taken
@@ -36,14 +40,14 @@ class Constants:
         module, after a minus sign if the number is negative.
         """
         text = self.precision.text(x)
-        # Python reads a literal faster than a global name.
+        # In double precision no names are needed: Python reads a literal faster than a global name.
         if self.precision is DOUBLE:
             return text
         # Negation causes no rounding error, so a number and its negative share one constant.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
-            # Skip names that a scene uses, such as C1.
+            # Skip a name if the scene already uses it: a parameter may have the name C1.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -52,7 +56,7 @@ class Constants:
 
 
 class Terms(Infix):
-    """Writes the terms of one function in Python."""
+    """Prints the terms (expressions) in the body of one function as Python text."""
 
     words: ClassVar[dict[str, str]] = {}
 
@@ -69,7 +73,7 @@ class Terms(Infix):
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation is special to Python."""
+        """Return the text of a term that is neither a negation nor an operation with a binary operator."""
         match term.op:
             case "name":
                 return Text((self.identifiers.of(term),))
@@ -77,7 +81,8 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The kernel expression may be a sum, so its text has the precedence of a sum.
+                # The kernel expression may be a sum. With the precedence of a sum, it gets parentheses where
+                # a sum needs them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.constants.style), SUM)
             case "status":
                 return Text((term.text,))
@@ -134,8 +139,8 @@ class Terms(Infix):
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return the text of the conditional expression ``yes if test else no``."""
-        # Conditional expressions associate to the right, so only the last operand may be a conditional
-        # expression without parentheses.
+        # If an operand is a conditional expression, it needs parentheses. The operand after ``else`` is an
+        # exception: Python reads ``a if s else b if t else c`` as ``a if s else (b if t else c)``.
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
@@ -149,7 +154,7 @@ class Terms(Infix):
         # ``0.0 ** -1`` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        # ``math.copysign`` returns a Python float, whose product with a float32 would be a double.
+        # ``math.copysign`` returns a Python float. In single precision it is converted to a float32.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
@@ -159,7 +164,8 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # Python floats are doubles, so only float32 needs a conversion.
+        # In a double precision module, all reals are Python floats, which are doubles. In single precision,
+        # flags and counts need no conversion to double.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))

@@ -26,16 +26,19 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{end}"
     if len(line) <= WIDTH:
         return [line]
-    # A comma after the last term is allowed in Python, so all terms are treated alike.
+    # Each term gets a comma, also the last one. Python allows this.
     return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
 
 
 def packed(segments: Sequence[str], depth: int) -> list[str]:
-    """Return the segments, separated by spaces and broken into indented lines of at most WIDTH characters."""
+    """Return indented lines that contain the segments, separated by spaces.
+
+    A line has at most :data:`WIDTH` characters, unless a single segment is longer.
+    """
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
     for segment in segments[1:]:
-        # A segment that is longer than a line gets its own line.
+        # If the segment does not fit on the last line, it starts a new line.
         if len(lines[-1]) + 1 + len(segment) > WIDTH:
             lines.append(f"{space}{segment}")
         else:

@@ -14,7 +14,8 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
-# A parameter named ``max`` would hide the builtin ``max`` that a module calls.
+# Builtins are reserved, too: in a function with a parameter ``max``, a call of the builtin ``max`` would
+# fail.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
 """Keywords, and names that a module imports or defines."""
 
@@ -24,9 +25,9 @@ _PUBLIC = """
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Local names of the public functions.
+"""Names of the arguments and local variables of the public functions in a module.
 
-The identifiers of run-time parameters must differ from these names.
+A run-time parameter of the scene must have a different identifier.
 """
 
 _INTEGRATION = """
@@ -35,4 +36,7 @@ _INTEGRATION = """
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())
-"""Names that a run to a given end time defines. They are reserved only in modules with such a run."""
+"""Names that a module needs for its function ``integrate``, which integrates to a given end time.
+
+They are reserved only in modules with this function.
+"""
