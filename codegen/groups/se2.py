@@ -52,12 +52,14 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return ((one - square) * factor, w * factor, *translation)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return y - [x, y]/2 - x y x/4, where x y x = -w w' (w, u) for x = (w, u) and y = (w', u')."""
+        """Return y - [x, y]/2 + w w' x/4 for x = (w, u) and y = (w', u')."""
         factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = -w w' (w, u) for x = (w, u) and y = (w', u')."""
+        """Return -w w' (w, u) for x = (w, u) and y = (w', u'). For the 3 x 3 matrices X of x and Y of y, the
+        result is the element with the matrix X Y X.
+        """
         factor = -(x[0] * y[0])
         return tuple(factor * a for a in x)
 
@@ -112,9 +114,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (m - p * b + r * a, p, r)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu.
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu for x = (w, u).
 
-        c_k are the Stumpff functions of w^2, where w is the angular velocity in x.
+        The numbers c_2 and c_3 are the values of two Stumpff functions at w^2.
         """
         z = x[0] * x[0]
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -139,11 +141,11 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation c^2 + s^2 = 1, as the pair of its text and its residual."""
+        """Return one pair: the text of the equation c^2 + s^2 = 1, and the residual of this equation."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the four symbols of a motion: ``name`` followed by c, s, 0 or 1."""
+        """Return one symbol for each coordinate. The names are ``name`` followed by c, s, 0 and 1."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in ("c", "s", "0", "1")]

@@ -17,8 +17,8 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - A function of ad_(w, u) is computed by the formula for this function of ad_w on so(3). In the formula,
-      w is replaced by the dual number w + u e with e^2 = 0.
+    - The code computes f(ad_(w, u)) for a function f by dual numbers. It evaluates the formula for f(ad_w) on
+      so(3) at the dual number w + u e with e^2 = 0 in place of w.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """

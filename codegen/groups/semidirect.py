@@ -48,10 +48,12 @@ class Semidirect(
     Inverse,
     CayleyMap,
 ):
-    """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
+    """The semidirect product of a group G, the linear factor, and a vector space V on which G acts.
 
-    The coordinates of g come before the coordinates of a. The argument ``representation`` is rho.
+    The argument ``representation`` is the representation rho of G on V. V consists of one or more copies of a
+    space. An element is (g, a): the coordinates of g in G, followed by the components of a in V.
 
+    - The product is (g, a)(k, b) = (g k, a + rho(g) b).
     - The element (g, a) maps the point z of V to rho(g) z + a.
     - An element (x, u) of the algebra moves the point z with the velocity x.z + u.
     - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
@@ -94,18 +96,18 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield one tuple for each copy of the space. It contains the components of v in this copy."""
+        """Yield the components of v in each copy of the space, one tuple for each copy."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Split each vector into its copies, apply ``operation`` copy by copy, and join the results."""
+        """Apply ``operation`` to the components in each copy of the space, and join the results."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
         """Return this product if it has the methods of the class ``capability``, otherwise None.
 
-        The result is None if the linear factor or the representation has no formulas for these methods.
+        The product has these methods if the linear factor and the representation have the formulas for them.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -161,10 +163,9 @@ class Semidirect(
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cay y, (1 - y/2)^-1 u) for x = (y, u).
+        """Return (cay y, (1 - Y/2)^-1 u) for x = (y, u), where Y is the matrix of y.
 
-        The product has a Cayley map if rho(g) is the matrix of g for each element g of the linear factor. In
-        this case (1 - y/2)^-1 = (1 + rho(cay y))/2.
+        The matrix of cay y is C = (1 - Y/2)^-1 (1 + Y/2). Therefore (1 - Y/2)^-1 = (1 + C)/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -179,7 +180,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The second component is computed by Horner's rule as v + b.u/2 - a.(v + b.u/2)/2.
+        # The vector v - (a.v - b.u)/2 - a.(b.u)/4 is equal to t - a.t/2 with t = v + b.u/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -187,7 +188,9 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v). The dot is the action on vectors."""
+        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v). The linear factor computes the product
+        a b a, and b.u is the action of b on the vector u.
+        """
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)
         tail = self.point_velocity(d, x, inner, translated=False)
@@ -204,7 +207,7 @@ class Semidirect(
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). The dot is the action on vectors."""
+        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). a.v is the action of a on v."""
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
@@ -216,7 +219,9 @@ class Semidirect(
         return tuple(p - q for p, q in pairs)
 
     def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the sum of the momentum maps J(v, p) over all copies of the space."""
+        """Return the sum of J(a, b) over all copies of the space. J is the momentum map, and a and b are the
+        components of v and p in one copy.
+        """
         parts = zip(self._copies(v), self._copies(p), strict=True)
         return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
@@ -260,9 +265,9 @@ class Semidirect(
         return self.linear.Adt(d, q, central) + turned
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_{q^-1} m + J(a, p'), p') with p' = rho(q)^-T p, for g = (q, a) and mu = (m, p).
+        """Return (Ad*_{q^-1} m + J(a, r), r) for g = (q, a) and mu = (m, p).
 
-        J is the momentum map, and rho is the representation.
+        Here r = rho(q)^-T p, rho is the representation, and J is the momentum map.
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
@@ -271,9 +276,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        If the representation has no closed forms, the first component is dexp*_y (m - J(t, p)) + D_y <p, t>,
-        and the second component is D_u <p, t>. Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the
-        momentum map, and D_y and D_u are the derivatives with respect to y and u.
+        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!. J is the momentum map, and D_y and D_u are the
+        derivatives with respect to y and u. If the representation has no closed forms, the code computes the
+        result as (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>).
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -285,7 +290,9 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x."""
+        """Return W(ad_x) v, where W is the product of the functions in ``word``. If ``dual`` is true, return
+        W(ad*_x) v.
+        """
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
         none: Vector[S] = tuple(d.rational(0) for _ in w)
@@ -309,10 +316,10 @@ class Semidirect(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. W is a product of functions
-        of ad_x.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        If ``dual`` is true, ad*_x replaces ad_x. The argument ``total`` is not used.
+        f is a number, and W(ad_x) is a product of functions of ad_x. If ``dual`` is true, ad*_x is used in
+        place of ad_x. The method ignores the argument ``total``.
         """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
@@ -344,8 +351,8 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the rules of the linear factor that replace products of coordinates. The vector has no
-        rules, because its components are independent.
+        """Return the replacement rules for products of coordinates of the linear factor. The components of
+        the vector are independent, so they need no rules.
         """
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
@@ -377,7 +384,7 @@ class Semidirect(
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the matrix [[rho(q), A], [0, 1]] for g = (q, a), with the representation rho.
 
-        The vector a consists of one vector for each copy of the space. These vectors are the columns of A.
+        Each column of A contains the components of a in one copy of the space.
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
@@ -385,7 +392,7 @@ class Semidirect(
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
 
-        The vector u consists of one vector for each copy of the space. These vectors are the columns of U.
+        Each column of U contains the components of u in one copy of the space.
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
@@ -417,14 +424,14 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The cover of this product: the linear factor is replaced by its cover."""
+        """The cover of this product. Its linear factor is the cover of the linear factor of this product."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
         return self.linear.require(Covered)
 
     def _over(self, q: Vector[S]) -> Pair[S]:
-        """Split an element (r, a) of the cover into the linear part r and the vector a."""
+        """Split the element q = (r, a) of the cover into r and the vector a."""
         size = self._covered().cover.size
         return tuple(q[:size]), tuple(q[size:])
 
@@ -436,15 +443,15 @@ class Semidirect(
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the result of :meth:`covering` for the projection of q. Only the linear part of q is
-        projected.
+        """Return the image of (r', a) under the covering map, for q = (r, a). r' is the projection of r onto
+        the cover of the linear factor.
         """
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the velocity x = (y, u) with y lifted to the cover of the linear factor. The vector u is not
-        changed.
+        """Return (z, u) for x = (y, u). The element z is the result of this method of the linear factor
+        for y.
         """
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
@@ -456,9 +463,9 @@ class Semidirect(
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover whose image is g = (q, a).
+        """Return (r, a) for g = (q, a), where r is an element of the cover of the linear factor.
 
-        q is lifted by the formula with the index ``formula``, and a is not changed.
+        The covering map takes r to q. The argument ``formula`` is the index of the formula that computes r.
         """
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a

@@ -15,9 +15,9 @@ class SL2(CubicAd, MatrixGroup, Projection):
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
     [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
 
-    A traceless matrix A satisfies A^2 = -z 1, where z = det A and 1 is the unit matrix. Thus exp A = c_0(z) +
-    c_1(z) A and dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. For z < 0 the
-    functions c_k are hyperbolic functions.
+    Let A be a traceless matrix, z = det A, and I the unit matrix. Then A^2 = -z I. With the Stumpff functions
+    c_k, this equation implies exp A = c_0(z) I + c_1(z) A and dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2. For
+    z < 0, the values c_k(z) are given by hyperbolic functions.
     """
 
     signed = True
@@ -56,19 +56,19 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n. The closed forms of exp(x) and dexp*_{-x} are used."""
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, computed by closed forms of exp(x) and dexp*_{-x}."""
         return Coadjoint.transport(self, d, x, n, mu)
 
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, followed by the result of :meth:`transport`. The closed forms of exp(x) and
-        dexp*_{-x} are used.
+        """Return the entries of exp(x) q, followed by the components of the momentum that :meth:`transport`
+        returns.
         """
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g. The determinant of this matrix is 1 + O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g. The determinant of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
@@ -77,7 +77,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
 
 
 def _adjugate(g: Vector[S]) -> Vector[S]:
-    """Return g^-1 for a matrix of determinant 1."""
+    """Return the adjugate of the matrix g. It is the inverse of g if det g = 1."""
     return (g[3], -g[1], -g[2], g[0])
 
 

@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class SO(RotationGroup):
     """Rotations of R^n, n >= 2.
 
-    The basis of the algebra consists of the skew matrices E_ji - E_ij with i < j. They are ordered by i, then
-    by j.
+    The basis of the algebra consists of the skew matrices E_ji - E_ij with i < j. The matrix E_ij has the
+    entry 1 in row i and column j, and zeros elsewhere. The pairs (i, j) are in lexicographic order.
     """
 
     def __init__(self, n: int) -> None:
@@ -22,5 +22,5 @@ class SO(RotationGroup):
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^T g = 1 and det g = 1, as pairs of a text and a residual."""
+        """Return a pair (text, residual) for each entry of g^T g = 1, and one pair for det g = 1."""
         return (*super().laws(d, g), ("det g = 1", determinant(g, self.n) - d.rational(1)))

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresentation, Inverse, CayleyMap):
     """Rotations of the plane as (c, s), the cosine and the sine of the angle.
 
-    An element of the algebra is the angular velocity w, and exp(w) = (c_0(w^2), w c_1(w^2)) with the Stumpff
-    functions c_k. The group is abelian, so Ad and dexp are identity maps.
+    An element of the algebra is an angular velocity w, and exp(w) = (cos w, sin w). The group is abelian.
+    Therefore Ad and dexp are identity maps.
     """
 
     name = "SO(2)"
@@ -39,8 +39,8 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (d.rational(1), d.rational(0))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of g and k, computed as a product of complex numbers. (c, s) represents the
-        number c + i s.
+        """Return the product of g and k. It is a product of complex numbers, because a rotation (c, s) is the
+        multiplication by c + i s.
         """
         return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
 
@@ -55,11 +55,11 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return ((one - quarter) * factor, x[0] * factor)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (1 + w^2/4) y for x = (w,)."""
+        """Return dcay^{-1}_x y = (1 + w^2/4) y for x = (w,)."""
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w^2 y for x = (w,). This vector represents the matrix product hat(x) hat(y) hat(x)."""
+        """Return -w^2 y for x = (w,). Its matrix is the product hat(x) hat(y) hat(x)."""
         return (-(x[0] * x[0] * y[0]),)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -72,7 +72,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (-(x[0] * g[1]), x[0] * g[0])
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the angular velocity c v_1 - s v_0 of the tangent vector v at g = (c, s)."""
+        """Return the angular velocity w = c v_1 - s v_0 of the tangent vector v = w (-s, c) at g = (c, s)."""
         return (g[0] * v[1] - g[1] * v[0],)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
@@ -93,7 +93,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return matvec(self.matrix(d, g), z)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return w (-z_1, z_0) for x = (w,)."""
+        """Return w (-z_1, z_0), the velocity of the point z for the angular velocity x = (w,)."""
         return (-(x[0] * z[1]), x[0] * z[0])
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
