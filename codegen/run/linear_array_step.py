@@ -1,14 +1,14 @@
 """The emitted functions for a step of a large linear problem y' = A(t) y.
 
-A step is described in :mod:`codegen.ir.linear_array_step`. The exponential of a matrix X is applied to a
-vector y as in :mod:`codegen.ir.exponential_action`. The number of halvings s is chosen such that the largest
-row sum of absolute values in 2^-s X is small. Then a Taylor polynomial of exp(2^-s X) of degree m is applied
-2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
-polynomial is below 2^-10 times the unit roundoff, relative to y.
+A step is described in :mod:`codegen.ir.linear_array_step`. It multiplies the vector y by exponentials exp(X)
+of matrices X, as in :mod:`codegen.ir.exponential_action`. The norm of a matrix is here its largest row sum of
+absolute values. X is halved s times, so that its norm becomes small. Then y is multiplied 2^s times by a
+Taylor polynomial of exp(2^-s X) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The
+remainder of the polynomial is below 2^-10 times the unit roundoff, relative to y.
 
-If X contains commutators, an upper bound of the largest row sum of X is used instead of the exact value. The
-upper bound of a sum is the sum of the upper bounds of its terms. The upper bound of a commutator [Y, Z] is
-twice the product of the upper bounds of Y and Z.
+If X contains commutators, an upper bound of its norm is used. The upper bound of a sum is the sum of the
+upper bounds of its terms. The upper bound of a commutator Y Z - Z Y is twice the product of the upper bounds
+of Y and Z.
 """
 
 from __future__ import annotations
@@ -61,11 +61,11 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number s of times that the matrix in an exponential is halved.
+"""The largest number of halvings of the matrix in an exponential.
 
-With s halvings, 2^s Taylor polynomials are applied to the state. For s = 16 and the degree 22, this takes
-seconds for a tridiagonal matrix with 1000 rows. A step that needs more halvings fails with the status
-TOO_FAR.
+After s halvings, the state is multiplied 2^s times by a Taylor polynomial. For a tridiagonal matrix with 1000
+rows, s = 16 and the degree 22, the multiplications take seconds. A step that needs more than 16 halvings
+fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -78,12 +78,12 @@ _PLACE, _PART = count("place"), count("part")
 
 
 def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function, ...]:
-    """Return the functions of a step. Each function comes after the functions that it calls."""
+    """Return the emitted functions for a step. Each function comes after the functions that it calls."""
     return _Step(plan, step).functions()
 
 
 def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables with the numbers in the constant matrices of a step."""
+    """Return the emitted tables that contain the constant matrices of a step."""
     return tuple(tables(step.matrix.constants(), precision))
 
 
@@ -117,20 +117,21 @@ class _Step:
         """Return all functions of the step. Each function comes after the functions that it calls."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
-        # The function of a commutator calls the functions of its two elements, so these functions come first.
+        # The function of a commutator [X, Y] calls the functions of X and Y. Therefore the functions of X and
+        # Y are listed before the function of [X, Y].
         for number_of, pair in enumerate(self.step.commutators):
             listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # Each exponent without commutators is a single letter. The array of the letter is an argument of
-            # the function EXPONENTIAL, so all these exponents use the same function. The number 0 in
-            # ``Element(0)`` is only a placeholder for the letter.
+            # An exponent without commutators is a single letter. The letter is an argument of the function
+            # EXPONENTIAL, so one function is enough for all letters. The number 0 in ``Element(0)`` is only a
+            # placeholder for the letter.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # The set ``done`` contains the numbers ``id(element)``. It does not recognise equal elements that are
-        # different objects. Their functions are listed several times, and ``_unique`` keeps only the first.
+        # If two elements are equal but are different objects, their function is listed twice. ``_unique``
+        # removes the repetition.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -138,8 +139,7 @@ class _Step:
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters that occur in an element or in its commutators. They are sorted by
-        the numbers of the letters."""
+        """Return the arrays of all letters in an element and its commutators, sorted by letter number."""
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -152,8 +152,7 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # The elements inside commutators are numbered first. They are followed by those exponents of the step
-        # that are not inside a commutator.
+        # The elements inside commutators have the lowest numbers. All other elements have higher numbers.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -167,7 +166,8 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        The number ``id(element)`` is added to the set ``done``.
+        ``done`` contains the numbers ``id(e)`` of all elements e that already have a function. The number of
+        ``element`` is added.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
@@ -187,18 +187,18 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function that computes result = X (Y x) - Y (X x).
+        """Return the function that multiplies a vector x by a commutator: result = X (Y x) - Y (X x).
 
-        [X, Y] is commutator number ``number_of`` of the step, counted from 0.
+        The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # An element that consists only of [X, Y] has the same letters as [X, Y].
+        # The argument of ``letters`` is an element, so the commutator is converted to an element.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
-            # A product cannot overwrite the vector that it reads. Therefore Y x and X x are computed in the
-            # work array ``first``.
+            # A product cannot overwrite the vector that it reads. Therefore Y x is stored in the work array
+            # ``first``. Later this array is used for X x.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),
@@ -216,7 +216,7 @@ class _Step:
         return " + ".join(parts)
 
     def over(self, y: Term, entry: Term) -> For:
-        """Return the loop that assigns ``entry`` to each entry of the array ``y``."""
+        """Return the loop that computes the array ``y``. The term ``entry`` is the value of ``y[_PLACE]``."""
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
@@ -229,22 +229,22 @@ class _Step:
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
         # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``.
-        # The lowest sufficient degree is chosen. Each iteration adds a test for a lower degree. The emitted
-        # code evaluates this test before the tests that were added earlier.
+        # The lowest sufficient degree is chosen.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Let m be the degree, y the state, and b the matrix ``scale`` X. Horner's rule computes p, the sum of
-        # (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are exact. The rounding errors of
-        # coefficients 1/j! would be equal in all steps, and would therefore accumulate.
+        # Let m be the degree, y the state, and b the matrix X times ``scale``. Horner's rule computes the
+        # vector p. It is the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are exact.
+        # Coefficients 1/j! would have the same rounding errors in all steps, and these errors would add up.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # After the loop ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
+        # After the loop, ``weight`` is m!. With the vector p of Horner's rule, the Taylor polynomial of
+        # exp(b) y is y + b (p/m!).
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
@@ -261,8 +261,8 @@ class _Step:
             *norms,
             # An infinite norm would remain infinite after any number of halvings.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # The letters are not multiplied by ``scale``, because a commutator is not linear in its letters.
-            # Instead, each product of the exponent and a vector is multiplied by ``scale``.
+            # X may contain commutators, which are not linear in the letters. Therefore the letters are
+            # not scaled. Each product of X and a vector is multiplied by ``scale`` instead.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -315,13 +315,13 @@ class _Step:
         letters = [self.letter(k) for k in range(len(step.letters))]
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
-            # The array of a banded matrix has some places that correspond to no entry of the matrix. These
-            # places remain zero.
+            # If the matrix is banded, some entries of the array are outside the matrix. These entries must be
+            # zero.
             *(Array(node, zero=True) for node in nodes),
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
-            # No name in the kernel contains a space, so this name is new.
+            # The name contains a space, so it differs from all names in the kernel.
             at = own(f"time {k + 1}")
             # If the matrix does not depend on t, the times t_i are not computed.
             body += [Assign(at, value(time))] if plan.time else []
@@ -348,8 +348,8 @@ class _Step:
 
         ``x`` is the time or the step size.
         """
-        # For a banded matrix the function computes h A(t). For a full matrix it computes subexpressions of
-        # A(t), which do not depend on h.
+        # For a banded matrix, the function computes h A(t), so it needs the step size h. For a full matrix,
+        # the function computes subexpressions of A(t), and does not need h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

@@ -1,8 +1,8 @@
 """Build the emitted functions for the matrix exponential, its derivatives, and the inverse of a matrix.
 
-The statements execute the operations that :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` execute in doubles. Matrices are stored row by row. A jet consists of a
-matrix and its derivatives. All matrices of a jet are stored in one array.
+The algorithms are described in :mod:`codegen.ir.matrix_exponential` and :mod:`codegen.ir.matrix_inverse`.
+Matrices are stored row by row. A jet consists of a matrix and its derivatives. All matrices of a jet are
+stored in one array.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # The exponentials of two matrices with equal numbers of rows use the same function for the norm. The
-        # dictionary ``listed`` contains this function only once.
+        # Several exponentials may call the same function for the norm. The dictionary ``listed`` contains
+        # this function only once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -110,7 +110,7 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of a jet: a matrix with its derivatives.
+    """Builds the emitted functions for the exponential of a jet. A jet is a matrix with its derivatives.
 
     The algorithm is described in :mod:`codegen.ir.matrix_exponential`.
     """
@@ -134,8 +134,7 @@ class _Exponential:
         return array[place + self.one * part if part else place]
 
     def norm(self, array: Term, target: Term) -> Call:
-        """Return the statement that computes the norm of the first matrix of a jet. This matrix is no
-        derivative."""
+        """Return the statement that computes the norm of the matrix in a jet, without the derivatives."""
         return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
 
     def _norm(self) -> Function:
@@ -176,11 +175,11 @@ class _Exponential:
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # The emitted code adds the terms in the same order with and without a loop, so both forms have the
-        # same rounding errors.
+        # For small matrices, the sum is emitted without a loop. The order of the terms is the same as in the
+        # loop, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # Each matrix of the jet has its own variable for the sum.
+        # The sums for different matrices of the jet need different variables.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -205,7 +204,8 @@ class _Exponential:
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
             Assign(norm, norm * scale),
-            # The derivatives are multiplied by ``scale`` too, because the whole jet is squared below.
+            # The matrix and its derivatives are multiplied by ``scale``. The repeated squaring of the jet
+            # undoes this scaling.
             For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
             *self._polynomial(powers, work, result, norm),
             If(
@@ -215,7 +215,7 @@ class _Exponential:
                     *self._squared(result, work, squarings, growth),
                 ),
             ),
-            # The norm is still too large if the loop ended at the limit of squarings.
+            # If the scaled norm is above ``least``, the Taylor polynomial is not accurate enough.
             If(norm > least, (_is_lost(result),)),
         ]
         return Function(self.name, self._about(), (a, result), tuple(body))
@@ -234,26 +234,26 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-        The degree is 4, 8, 12 or 16. It is the lowest degree for which the remainder is below the rounding
-        errors if the matrix has the norm ``norm``.
+        ``norm`` is the norm of the matrix. The degree is 4, 8, 12 or 16. The lowest degree is chosen for
+        which the remainder is smaller than the rounding errors.
         """
-        # The method of Paterson and Stockmeyer computes b^2, b^3 and b^4 first. A polynomial of degree 4 g is
-        # divided into g groups of four coefficients, and the term of the highest degree. Horner's rule with
-        # the factor b^4 combines the groups. Only g + 2 products of matrices are needed.
+        # This is the method of Paterson and Stockmeyer for a polynomial of degree 4 g in a matrix b. The
+        # powers b^2, b^3 and b^4 need three products of matrices. Four successive terms are a group. Horner's
+        # rule with the factor b^4 combines the g groups, and needs g - 1 more products.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # The polynomials of degree 4, 8 and 12 are accurate up to the norms ``first``, ``second`` and
-        # ``third``. For all larger norms the degree is 16.
+        # The polynomial of degree 4 is accurate enough for norms up to ``first``. The limit is ``second`` for
+        # degree 8, and ``third`` for degree 12. For all larger norms the degree is 16.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
-        # Horner's rule begins with the term of the highest degree. For this term, the known matrix b^4 is
-        # only multiplied by a coefficient.
+        # Horner's rule begins with b^4 times the coefficient of the highest degree 4 g.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
-            # The largest term is added last, because this order causes the smallest rounding errors.
+            # The terms of high degree are usually small. They are added first, because this order keeps
+            # rounding errors small.
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
@@ -266,8 +266,8 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop runs from the highest group to the lowest. The highest group begins with the term
-                # of the highest degree. All lower groups multiply the previous result by b^4.
+                # The loop runs from the highest group to the lowest. For each group except the highest, the
+                # previous result is multiplied by b^4.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -287,9 +287,8 @@ class _Exponential:
 
         The norm is the spectral norm.
         """
-        # By Gershgorin's theorem, ``largest`` is an upper bound of all eigenvalues of the symmetric part of
-        # ``a``. Then exp(``largest``) is an upper bound of the spectral norm of exp(``a``). If ``a`` is skew,
-        # ``largest`` is 0.
+        # Let mu be the largest eigenvalue of the symmetric part of ``a``, that is, the logarithmic norm. The
+        # spectral norm of exp(``a``) is at most exp(mu). By Gershgorin's theorem, mu is at most ``largest``.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -309,21 +308,22 @@ class _Exponential:
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the result repeatedly and compute a bound of its error.
+        """Return the statements that square the jet ``result`` repeatedly.
 
-        If the bound of the relative error exceeds 2^-LEAST_DIGITS, the result is filled with NaNs.
+        The statements also compute a bound of the error. If this bound exceeds 2^-LEAST_DIGITS times the norm
+        of ``result``, all entries become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # The Frobenius norm and ``growth`` are both upper bounds of the spectral norm of the matrix that
-            # is squared. The smaller bound is used.
+            # The spectral norm of the matrix is at most its Frobenius norm, and at most ``growth``. The
+            # smaller of these two bounds is used.
             Assign(bound, select(bound < growth, bound, growth)),
-            # Let e be the error of a matrix E, and u the unit roundoff. Then the computed square of E has an
-            # error of at most about 2 |E| e + n^2 u |E|^2.
+            # Let r be a bound of the norm of an n x n matrix, e the norm of its error, and u the unit
+            # roundoff. The error of the computed square has a norm of at most about 2 r e + n^2 u r^2.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
-            # The norm of a squared matrix is at most the square of the norm of the matrix.
+            # If the norm of a matrix is at most ``growth``, the norm of its square is at most ``growth``^2.
             Assign(growth, growth * growth),
             self.product(result, result, work),
             # The product cannot overwrite its factors, so the square is computed in ``work`` and then copied.
@@ -369,8 +369,8 @@ def _inverse(function: MatrixInverse) -> Function:
     # keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. After the elimination of column k, the entries of this column are no
-    # longer needed. They are replaced by numbers that later become a column of the inverse.
+    # The inverse overwrites the matrix. The elimination makes the entries of column k zero, except the pivot.
+    # These zeros need not be stored, so the column is used for entries of the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -384,8 +384,7 @@ def _inverse(function: MatrixInverse) -> Function:
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
-        # The loop above has also multiplied the pivot by its reciprocal. The place of the pivot must contain
-        # the reciprocal itself.
+        # The inverse needs the reciprocal of the pivot in the place of the pivot.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )

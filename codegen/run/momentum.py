@@ -1,9 +1,11 @@
-"""Conversion of the momentum between the body frame, in which a run makes its steps, and the space frame.
+"""Conversion of the momentum between the space frame and the body frame.
 
-The state of the caller contains the momentum in the space frame. The momentum is converted at the beginning
-of a run. At the end, the increase of the space momentum is computed and added to the initial momentum. A
-conversion has an error, because rounding makes the group element q slightly non-orthogonal. With this
-procedure the error affects only the increase, and not the whole momentum.
+The state of the caller contains the momentum in the space frame. A run makes its steps in the body frame, so
+the momentum is converted at the beginning of the run. At the end of the run, the increase of the space
+momentum is computed and added to the initial momentum.
+
+Rounding makes the group element q slightly non-orthogonal, so each conversion has an error. This error
+affects only the increase, and not the whole momentum.
 """
 
 from __future__ import annotations
@@ -57,12 +59,12 @@ def _enter(plan: Plan, carried: Carried) -> Function:
     first, n = carried.first, plan.size - carried.first
     body = (
         Call("to_body", (state, before)),
-        # The conversion needs q, which is the same in the body frame and in the space frame.
+        # The group element q is the same in both frames, so it is copied.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The body momentum is immediately converted back to the space frame. ``_leave`` subtracts the result
-        # from the final momentum, which is converted in the same way. Errors that are common to both
-        # conversions cancel.
+        # The initial body momentum is converted back to the space frame. At the end of the run, the final
+        # body momentum is also converted, and ``_leave`` computes the difference of the two results. The
+        # common errors of both conversions cancel.
         Call("to_space", (moving, before)),
     )
     about = (
@@ -75,7 +77,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The increase ``momentum[i] - before[i]`` is computed first. It is small, so its rounding error is small.
+    # The parentheses are needed. The increase ``momentum[i] - before[i]`` is usually small, so its rounding
+    # error is small.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),
