@@ -1,17 +1,20 @@
 """A step of an integrator on n x k matrices with orthonormal columns. It never forms an n x n matrix.
 
-A generator is an element B S B^T of so(n). Its exponential is applied to the state. The n x r matrix B, the
-basis, is the same for all generators of a step. The skew r x r matrix S is the core of the generator. The
-first k columns of B are the state X_0. Each evaluation of the vector field adds k columns, so r = k (m + 1)
-for a step with m evaluations. Let S and T be two cores, C an r x k matrix, and G = B^T B the Gram matrix.
-Then
+A generator is an element of so(n) whose exponential is applied to the state. All generators of a step have
+the form B S B^T with the same n x r matrix B. The matrix B is the basis of the step. The skew r x r matrix S
+is the core of the generator.
+
+The first k columns of B are the state X_0 at the start of the step. Let V be the value of the vector field at
+a point X of the step. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. The k columns of W become
+new columns of B. Hence r = k (m + 1) for a step with m evaluations of the vector field.
+
+Both X and W are products of B and an r x k matrix: X = B C and W = B E. Hence the core of the generator at X
+is E C^T - C E^T. The point is stored as X = X_0 + B D, where the r x k matrix D is its displacement.
+
+Let S and T be two cores, and let G = B^T B be the Gram matrix. Commutators and exponentials are computed by
 
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
-
-Each point X of the step is X_0 + B D. The small r x k matrix D is the displacement of the point. Let the
-tangent vector V be the value of the vector field at X. The generator at X is W X^T - X W^T with
-W = V - X (X^T V)/2. If X = B C and W = B E, the core of this generator is E C^T - C E^T.
 """
 
 from __future__ import annotations
@@ -50,13 +53,14 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """The statement target = D, where the matrix D is defined by exp(B S B^T) X = X_0 + B D.
+    """A statement that applies the exponential of B S B^T to a point X. It assigns D to ``target``, where
+    exp(B S B^T) X = X_0 + B D.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - The point X is X_0 + B * ``start``, or X_0 if ``start`` is None. ``start`` does not have more rows than
-      ``target``.
+    - ``start`` is the displacement of X, that is, X = X_0 + B * ``start``. If ``start`` is None, X is X_0.
+    - ``start`` has at most the number of rows of ``target``.
     """
 
     target: Matrix
@@ -69,9 +73,9 @@ class Move:
         """The numbers of additions and multiplications if the series of phi has :data:`TERMS` terms."""
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The four summands count the multiplications for G S, for the norm of G S, for G C, and for
-        # S phi(G S) G C (see the beginning of this module). The last summand consists of one multiplication
-        # by the matrix G S for each term of phi, and one by S.
+        # The symbols G, S and C are explained at the beginning of this module. The four summands count the
+        # multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. The product
+        # S phi(G S) G C needs one multiplication by the matrix G S for each term of phi, and one by S.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 

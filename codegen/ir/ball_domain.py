@@ -48,15 +48,17 @@ class BallDomain:
     """An arithmetic with ``digits`` decimal digits. Its scalars are midpoints of Arb balls.
 
     ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
-    scalars, and :meth:`mpf` converts a scalar to an mpmath number. OverflowError is raised if an argument x
-    of a function has abs(x) >= 2^n, where n is :data:`codegen.ir.domain.LARGEST_BITS`.
+    scalars, and :meth:`mpf` converts a scalar to an mpmath number. Functions such as exp raise OverflowError
+    for an argument with an absolute value of 2^n or more, where n is
+    :data:`codegen.ir.domain.LARGEST_BITS`.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         self.digits = digits
         self.bits = math.ceil(digits * BITS_PER_DIGIT) + GUARD
         with self.precision():
-            # eps is 2^-b, where b is the working precision without the guard bits. It is about 10^-digits.
+            # The number eps is 2^-b, where b is the number of bits without the guard bits. Hence eps is about
+            # 10^-digits.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
         # If a fixed-point iteration has not converged after this number of sweeps, Newton's method is used.
@@ -94,8 +96,8 @@ class BallDomain:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         with precision(self.bits + 16):
-            # A number with b bits has 0.301 b decimal digits. The text has b/3 + 5 digits, so its rounding
-            # error is negligible.
+            # ``approximate`` returns a decimal text. A precision of b bits corresponds to 0.301 b decimal
+            # digits. The text has b/3 + 5 digits, so its rounding error is negligible.
             ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
         return ball.mid()
 
@@ -115,7 +117,7 @@ class BallDomain:
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
         if selects(function):
-            # The sign of a ball around zero is unknown, so the midpoints are compared.
+            # A ball that contains zero has no definite sign. Therefore the signs of midpoints are used.
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
@@ -136,10 +138,13 @@ class BallDomain:
     def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
         """Return the results of a vector function.
 
-        The exponential of A + e E, with e^2 = 0, is computed from the block matrix with the rows (A, E) and
-        (0, A). ZeroDivisionError is raised for the inverse of a singular matrix. OverflowError is raised for
-        the exponential of a matrix if an argument is not finite, or if an entry of the matrix has an absolute
-        value of 2^40 or more.
+        The derivative of the exponential of a matrix A in the direction E is computed with the block matrix
+        that has the block rows (A, E) and (0, A). The first block row of its exponential contains exp(A) and
+        the derivative.
+
+        ZeroDivisionError is raised for the inverse of a singular matrix. The exponential of a matrix raises
+        OverflowError if an argument is not finite, or if an entry of the matrix has an absolute value of 2^40
+        or more.
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
@@ -150,16 +155,15 @@ class BallDomain:
                 raise OverflowError(
                     "the exponential of a matrix needs finite entries with absolute values below 2^40"
                 )
-            # Cancellation in the series of the exponential loses up to about 3 bits for each unit of the
-            # norm. The working precision is therefore increased by 64 + 3 * norm bits, but by at most 64 +
-            # 2^13 bits.
+            # Cancellation in the series of the exponential loses up to about 3 * norm bits. The working
+            # precision is therefore increased by 64 + 3 * norm bits, but by at most 64 + 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
             return tuple(x.mid() for x in _first_row(result, called.level))
         if isinstance(called, ExponentialAction):
-            # The result is exp(A) y with a matrix A and a vector y. This domain computes the matrix exp(A).
-            # Emitted code never computes this matrix.
+            # The result is exp(A) y with a matrix A and a vector y. This domain computes the matrix exp(A)
+            # first. Emitted code computes exp(A) y without the matrix exp(A).
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
@@ -209,7 +213,8 @@ class BallDomain:
         It is computed from its series for abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z).
         """
         if abs(z) > 1:
-            # For small z this formula would lose digits, because both terms tend to 1/(k-1)! and cancel.
+            # This formula is not used for small z, because c_{k-1} and k c_k both tend to 1/(k-1)!. Their
+            # difference would lose digits.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
         # The derivative of (-z)^j/(2j+k)! is zero for j = 0, so the sum begins with j = 1.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
@@ -248,8 +253,9 @@ class BallDomain:
         The iteration has converged if the change is zero. It has also converged if the change satisfies two
         conditions:
 
-        - It is at most 2^12 eps max(1, m), where m is the largest absolute value of the numbers in ``old``.
-        - It is not smaller than ``previous``, the size of the previous change.
+        - The change is at most 2^12 eps max(1, m), where m is the largest absolute value of the numbers in
+          ``old``.
+        - The change is not smaller than ``previous``, the size of the previous change.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # For a NaN all comparisons below are false. Without this test the iteration would continue up to the
@@ -262,8 +268,8 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # The rounding error of the quotient is about eps/d, and its truncation error is about d. Both are of
-        # equal size for d = sqrt(eps).
+        # For abs(x) <= 1, the quotient has a rounding error of about eps/d and a truncation error of about d.
+        # Both errors have the same size for d = sqrt(eps). For larger abs(x), d is proportional to abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 

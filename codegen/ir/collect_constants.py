@@ -2,9 +2,9 @@
 3/2 (a - b).
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
-is not a linear combination itself. Numeric factors are moved from products and powers to the coefficients of
-the linear combination, and from there to the numerators of quotients. For example, 3/2 (1/sqrt x)^3 becomes
-(3/2)/(x sqrt x). The result is used if it has fewer operations than the given expressions.
+is not a linear combination itself. Numeric factors of products and powers become coefficients of the linear
+combination. The coefficient of an inverse becomes its numerator. For example, 3/2 (1/sqrt x)^3 becomes
+(3/2)/(x sqrt x). The rewritten expressions are used if they have fewer operations than the given expressions.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination of atoms. The table maps the node number of each atom to the pair (coefficient, atom).
-For a constant term the atom is the expression 1.
+"""A linear combination of atoms. The dictionary maps the node number of each atom to the pair (coefficient,
+atom). For a constant term the atom is the expression 1.
 """
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the expressions ``roots`` with their constants combined.
 
-    If this does not reduce the number of operations, ``roots`` is returned unchanged. The expressions in
-    ``kept`` are not expanded. Only their numeric factors may be combined with other numbers.
+    If the combined expressions do not have fewer operations, ``roots`` is returned unchanged. The expressions
+    in ``kept`` are not expanded. Only their numeric factors may be combined with other numbers.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -37,8 +37,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # ``bare`` contains the expressions in ``kept`` without their numeric factors. For example, only x is not
-    # expanded if ``kept`` contains 3 x. The factor 3 may be combined with other numbers.
+    # ``bare`` contains the expressions in ``kept`` without their numeric factors. For example, it contains x
+    # if ``kept`` contains 3 x. The factor 3 may be combined with other numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
@@ -49,8 +49,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
-    # If both need the same number of operations, ``roots`` is returned. Earlier compiler passes have chosen
-    # this form.
+    # If both need the same number of operations, ``roots`` is returned.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -71,11 +70,11 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers (1/sqrt x)^n that should be rewritten as quotients 1/(x^m sqrt x) with n = 2 m + 1.
+    """Return the powers y^n of inverse roots y = 1/sqrt x that should be rewritten as quotients.
 
-    Let y = 1/sqrt x. A power of y is called an intermediate value if it occurs only as a factor of other
-    powers of y. If all other powers of y have odd exponents n >= 3, the powers of y are rewritten. Otherwise
-    no power of this y is rewritten.
+    For example, y^3 becomes 1/(x sqrt x). A power of y is called an intermediate value if it occurs only as a
+    factor of other powers of y. The powers of y are rewritten if all powers that are not intermediate values
+    have odd exponents n >= 3.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
@@ -106,8 +105,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node equals c y^n, where c is a number and y = 1/sqrt(x).
 
-    Some arguments of the node may be such powers, with equal or different y. For each of them, ``inside``
-    contains the pair (node number of y, exponent).
+    ``inside`` contains a pair (node number of y, exponent n) for each argument of the node that equals c y^n.
+    The pairs may belong to different y.
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
@@ -132,16 +131,15 @@ class _Gathering:
         # combinations of the arguments.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # The linear combination of a node is stored, so that all expressions that contain it can use
-                # it.
+                # The linear combination is stored, so that it is computed only once for each node.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        A term c (1/y) is written as (c/e) (e/y). The number e is the same for all terms with the same y. It
-        is the absolute value of the coefficient c in the first of these terms.
+        A term c (1/y) is written as (c/e) (e/y), where e is a positive number. The first term with a given y
+        determines e = |c|. Later terms with the same y use the same e.
         """
         if node.id not in self.written:
             # The expression is built only once, so that it stays a shared subexpression.
@@ -152,14 +150,14 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        The pair is (c/e, e/y) if ``atom`` is an inverse 1/y, otherwise (c, ``atom``). In the first call for
-        an atom 1/y, e is |c|. All later calls for the same atom use the same e.
+        If ``atom`` is an inverse 1/y, the pair is (c/e, e/y) with a positive number e. The first call for
+        this atom determines e = |c|, and all later calls for this atom use the same e. For all other atoms
+        the pair is (c, ``atom``).
         """
         if not _is_inverse(atom):
             return c, atom
         # ``numerator`` is e, and ``atom`` is 1/y. The term c (1/y) becomes (c/e) (e/y). In the first call for
-        # this atom, c/e is 1 or -1, so the term needs no product. The division takes the same time for every
-        # numerator.
+        # this atom, c/e is 1 or -1, so the term needs no product. The division e/y is not slower than 1/y.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
@@ -248,11 +246,11 @@ def _size(c: Number) -> Number:
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return the linear combination with the terms ``total`` as an expression.
 
-    Terms whose coefficients have equal absolute values are added first. Their sum is then multiplied by this
-    absolute value.
+    Terms whose coefficients have the same absolute value share one product. For example, 3/2 a - 3/2 b
+    becomes 3/2 (a - b).
     """
-    # The key of a group is |c|. For example, 3/2 a - 3/2 b is one group and needs one product. A dictionary
-    # keeps the order of insertion, so the order of the sum depends only on the given terms.
+    # Terms with the same |c| form a group. For example, 3/2 a - 3/2 b is one group and needs one product. A
+    # dictionary keeps the order of insertion, so the order of the sum depends only on the given terms.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object

@@ -50,7 +50,8 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     """Convert a condition of sympy to a :data:`Condition`. The function ``node`` converts the two sides of a
     comparison from sympy to :class:`Expr`. ``where`` is the place of the formula for error messages.
 
-    :class:`SceneError` is raised if the condition is not built from comparisons by And, Or and Not.
+    A condition may contain comparisons that are joined by And, Or and Not. For all other conditions,
+    :class:`SceneError` is raised.
     """
     import sympy
 

@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    ``moving`` contains the ids of all nodes that depend on the variables by which the caller differentiates.
-    If it is given, the derivatives of a vector function with respect to other nodes are not computed. They
-    are replaced by zero.
+    ``moving`` contains the node numbers of all nodes that depend on the variables of differentiation. If
+    ``moving`` is given, a vector function is differentiated only with respect to arguments in ``moving``. For
+    its other arguments the returned list contains zeros.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -60,8 +60,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # The derivatives of a/b are 1/b and -(a/b)(1/b). The node is a/b, so only the division 1/b is
-            # added.
+            # The derivatives of a/b are 1/b and -(a/b)(1/b). The node itself is a/b, so 1/b is the only
+            # new division.
             inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
@@ -94,8 +94,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
-            # The derivatives of atan2(y, x) with respect to y and x are x/(x^2 + y^2) and -y/(x^2 + y^2). In
-            # the code, the variable ``x`` is the first argument, that is, y in these formulas.
+            # The derivatives of atan2(a, b) with respect to a and b are b/(a^2 + b^2) and -a/(a^2 + b^2). The
+            # variable ``x`` is a.
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
@@ -110,14 +110,14 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # The Stumpff function c_0 has the derivative -c_1/2. The same rule is valid for the signed functions,
-        # whose argument may be negative.
+        # The Stumpff function c_0 has the derivative -c_1/2. ``signed_stumpff0`` has the same derivative,
+        # because it is c_0 for arguments of either sign.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # For k = 2 and 3 the rule contains c_4 and c_5, which emitted code cannot evaluate. Emitted code has
-        # the functions ``slope2`` and ``slope3`` for the derivatives c_2' and c_3' instead.
+        # The formula c_k' = (k c_{k+2} - c_{k+1})/2 contains c_4 for k = 2, and c_5 for k = 3. Emitted code
+        # has no functions for c_4 and c_5. It has the functions ``slope2`` for c_2' and ``slope3`` for c_3'.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "slope2" | "slope3" as name:
@@ -127,8 +127,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # The derivatives of a/b contain 1/b. It is computed by ``quotient``, which gives 0 for b = 0. A
-            # division would give an infinite derivative.
+            # The derivatives of a/b contain 1/b. The function ``quotient`` computes 1/b and gives 0 if b = 0.
+            # A division would give infinity for b = 0.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
