@@ -22,8 +22,8 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """Raised if an iteration has not converged after its largest number of sweeps, or if it computes a number
-    that is not finite."""
+    """Raised if an iteration does not converge within the allowed number of sweeps, or if the iteration
+    computes a number that is not finite."""
 
 
 # The types of scalars (float, mpf, series and Expr) have the same operators, but no common base class.
@@ -55,8 +55,8 @@ class Domain(Protocol):
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return a pair: whether an iteration has converged, and the size of the change from the values
-        ``old`` to ``new``. ``previous`` is the size that the previous call returned."""
+        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
+        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep."""
 
 
 class Differenced(Domain, Protocol):
@@ -89,8 +89,8 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # The formula for c_3 contains sqrt z - sin sqrt z. This difference loses digits if the angle sqrt z is
-    # below about 2, so the series is used for these angles.
+    # The formula for c_3 contains the difference s - sin s with s = sqrt z. This difference loses digits by
+    # cancellation for small s. The series is therefore used for s < 2, that is for z < 4.
     if z < (0.5 if k < 3 else 4.0):
         # Horner's rule begins with the power z^14. The first omitted term is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
@@ -102,8 +102,8 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
-        # c_2 = (1 - cos s)/z with s = sqrt z. The difference 1 - cos s would lose digits by cancellation for
-        # small s, so it is computed as 2 sin^2(s/2).
+        # The function c_2(z) is (1 - cos s)/z with s = sqrt z. The difference 1 - cos s is computed as
+        # 2 sin^2(s/2), because the subtraction would lose digits by cancellation for small s.
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
@@ -178,14 +178,14 @@ class FloatDomain:
         return result
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results of a vector function for doubles. Emitted code executes the same operations."""
+        """Compute a vector function for doubles by the same operations as emitted code."""
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
-        ``new``. ``previous`` is the size that the previous call returned."""
+        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
+        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # All comparisons below are false for a NaN. Without this test the iteration would not end early.
+        # All comparisons below are false for a NaN. Without this test, a NaN would not end the iteration.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
         # The change is compared with the largest unknown. A small unknown may be the sum of large terms that
@@ -209,19 +209,19 @@ class FloatDomain:
 
 
 LARGEST_BITS = 16384
-"""The largest binary exponent that the argument of a function may have in :class:`PreciseDomain`."""
+"""In :class:`PreciseDomain`, the arguments of functions must be smaller than 2^LARGEST_BITS in size."""
 
 
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
     context. OverflowError is raised if the absolute value of an argument of a function is
-    2^:data:`LARGEST_BITS` or more. mpmath has no such bound. In a divergent iteration it would spend a long
+    2^:data:`LARGEST_BITS` or more. A divergent iteration thus ends early. Otherwise mpmath would spend a long
     time on functions of numbers with millions of digits."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
-        # The global context of mpmath is not changed, because other code uses its precision.
+        # The global context of mpmath is not changed, because other code may use it.
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits
@@ -236,7 +236,7 @@ class PreciseDomain:
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
-        # The decimal text has five more digits than the result, so its own rounding error is negligible.
+        # The decimal text has five more digits than the result, so the error of the text is negligible.
         return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
 
     def rational(self, p: int, q: int = 1) -> Scalar:
@@ -307,9 +307,9 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
-        ``new``. It has converged if the change is zero. It has also converged if the change is at most 2^12
-        rounding units and not smaller than ``previous``, the size of the previous change."""
+        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
+        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep. An iteration
+        has converged if the change is zero, or if it is at most 2^12 rounding units and not decreasing."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # While the change of the unknowns decreases from sweep to sweep, a further sweep gives more correct
@@ -323,8 +323,8 @@ class PreciseDomain:
 
 class SeriesDomain:
     """The arithmetic of power series in h over an exact ring ``base``. Powers above h^``order`` are
-    truncated. The Taylor coefficients of a local error are exact in this arithmetic. An integrator has the
-    order p at the initial state if the coefficients up to h^p are zero."""
+    truncated. The Taylor coefficients of the local error of a step are exact in this arithmetic. If the
+    coefficients of the local error up to h^p are zero, the step has the order p."""
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
@@ -332,7 +332,7 @@ class SeriesDomain:
         self.h = self.ring.h
 
     def number(self, value: Number) -> Scalar:
-        """Return the number ``value`` as a constant series. It must be rational or an element of ``base``."""
+        """Return a constant series. The number ``value`` must be rational or an element of ``base``."""
         if value.ring is self.base:
             return self.ring.constant(value.element)
         fraction = value.fraction()
@@ -345,7 +345,7 @@ class SeriesDomain:
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
         cannot be computed exactly. Sine, cosine, exponential and similar functions require an argument
-        without constant term. ``quotient`` divides two series. If the divisor begins with the power h^v, the
+        without constant term. ``quotient`` divides two series. If h^v is the lowest power in the divisor, the
         last v coefficients of the quotient are unknown and are set to zero."""
         z = args[0]
         if function == "quotient":
@@ -368,12 +368,12 @@ class SeriesDomain:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # c_k' = (k c_{k+2} - c_{k+1})/2. The series in ``_sum`` is valid for any index, also above 3.
+            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. The index k + 2 may be larger than 3.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
             k = int(function[-1])
-            # The formula for c_k'' is the formula c_k' = (k c_{k+2} - c_{k+1})/2, applied twice.
+            # The formula for c_k'' follows if the rule c_k' = (k c_{k+2} - c_{k+1})/2 is applied twice.
             c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
             return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
@@ -387,8 +387,8 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
-        # The series in ``_sum`` has alternating signs, like those of sin and cos. For exp, sinh and cosh the
-        # argument is negated, so that all signs become equal.
+        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. The series of
+        # exp, sinh and cosh have no alternating signs, so the argument of ``_sum`` is negated for them.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -414,7 +414,7 @@ class SeriesDomain:
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z or asin z by its Taylor series.
 
-        Term j of atan z is (-1)^j z^(2j+1)/(2j+1). Term j of asin z is binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
+        Term j is f z^(2j+1)/(2j+1) with a factor f: (-1)^j for atan, and binom(2j, j)/4^j for asin."""
         total, power = self.ring.zero, z
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
@@ -432,20 +432,20 @@ class SeriesDomain:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # Both series are divided by h^power, so the divisor becomes invertible.
+        # The series a and b are divided by h^power. The new divisor has a constant term, so it is invertible.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return the sum of ``first`` * (-z)^j * k!/(``step`` * j + k)! over all j >= 0."""
+        """Return a sum over all j >= 0. Term j is ``first`` * (-z)^j * k!/(``step`` * j + k)!."""
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The divisor is (step j + k)!/(step (j - 1) + k)!. The large factorials are not computed.
+            # The divisor is the quotient of the factorials (step j + k)! and (step (j - 1) + k)!.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term begins with a higher power of h than the previous term. The
-            # loop ends when the term begins with a power above h^order, which is truncated.
+            # The series z has no constant term, so the lowest power of h increases from term to term. When it
+            # is above h^order, the truncated term is zero and the loop ends.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -464,7 +464,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The key is the node number of a time. Equal times are the same node and thus have the same key.
+        # Each key is the number of the node of a time t. Equal times are one node and have the same key.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -486,9 +486,9 @@ class ExprDomain:
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return a table from ``names`` to symbols for values at the time t. The names are functions of time
-        that the caller of the emitted code supplies. Equal times give the same symbols."""
-        # Stages with equal times use the same symbols, so emitted code calls each function once for them.
+        """Return one symbol for each name: the value of the function with this name at the time t. The caller
+        of the emitted code supplies these functions of time. Equal times give the same symbols."""
+        # If several stages have the same time, emitted code calls each function only once for this time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -1,8 +1,8 @@
 """The elementary functions tan, sinh, cosh, tanh, atan, asin and acos, with their derivatives.
 
-A user's formulas may call these functions, and also sqrt, sin, cos, exp and log. The other modules take the
-derivatives of each function from the table :data:`ELEMENTARY`. The Taylor series of f(a(t)) is computed from
-d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t).
+A user's formulas may call these functions, and also sqrt, sin, cos, exp and log. The table :data:`ELEMENTARY`
+contains the first and second derivatives of each function f of this module. The Taylor series of f(a(t)) is
+computed by the chain rule, from the first derivative of f.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ class Elementary:
 
 
 def _of_cosine(x: Expr, f: Expr) -> Expr:
-    # This is the derivative of sinh. It is no polynomial in the value f = sinh x, so cosh must be called.
+    # This is the derivative of sinh. The value f = sinh x is not used, because cosh x is not a polynomial in
+    # sinh x.
     return x.space.call("cosh", x)
 
 
@@ -64,7 +65,8 @@ def _arccosine(x: Expr, f: Expr) -> Expr:
 
 
 def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
-    # The slope s of asin or acos satisfies s' = x s^3, because s^2 = 1/(1 - x^2).
+    # The first derivative of asin is s = (1 - x^2)^(-1/2), and the second derivative is x s^3. For acos, both
+    # derivatives have the opposite sign, so the formula x s^3 is true again.
     return lambda x, f: x * slope(x, f) ** 3
 
 
@@ -72,7 +74,7 @@ def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
 ELEMENTARY = {
     function.name: function
     for function in (
-        # The derivatives of tan and tanh are polynomials in the value f, so no other function is called.
+        # The derivatives of tan and tanh are polynomials in the value f, so their formulas call no function.
         Elementary("tan", lambda x, f: 1 + f * f, lambda x, f: 2 * f * (1 + f * f)),
         Elementary("sinh", _of_cosine, _value, raising=True),
         Elementary("cosh", _of_sine, _value, Fraction(1), raising=True),

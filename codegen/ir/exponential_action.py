@@ -1,14 +1,14 @@
 """The product exp(A) y of the exponential of an n x n matrix A and a vector y. The matrix exp(A) is not
 formed.
 
-In doubles, A is divided by 2^s, so that its largest row sum is small. The vector is then multiplied 2^s times
-by the Taylor polynomial of exp(A/2^s) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488).
-The Taylor polynomial of degree m of exp(A) y is computed as y + A (p/m!). Horner's rule computes p, which is
-the sum of (m!/j!) A^(j-1) y over j = 1, ..., m.
+In doubles, A is divided by a power 2^s, so that the largest row sum of the matrix B = A/2^s is small. The
+vector y is then multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham,
+SIAM J. Sci. Comput. 33 (2011) 488). One multiplication replaces y by y + B (p/m!), where m is the degree of
+the polynomial. Horner's rule computes the vector p, the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
 
 The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
 error in every step of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
-executes the same operations in the same order (:mod:`codegen.run.exponential_action`).
+executes the same operations in the same order as :meth:`ExponentialAction.in_doubles`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,8 @@ def degrees(bits: int) -> tuple[int, ...]:
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
     # The odd part of an integer is the integer without its factors 2. An integer needs no rounding if its
-    # odd part has at most ``bits`` bits. The odd part of m!/j! divides that of m!, so only m! is tested.
+    # odd part has at most ``bits`` bits. It is sufficient to test m!, because the odd part of m!/j! divides
+    # the odd part of m!.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
@@ -63,13 +64,12 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return one bound for each degree m of :func:`degrees`. The Taylor polynomial of degree m is used only
-    for matrices whose norm is at most this bound.
+    """Return one bound for each degree m of :func:`degrees`, for numbers with ``bits`` bits. The Taylor
+    polynomial of degree m is used only for a matrix whose norm is at most the bound of m.
 
     The norm is the largest row sum of absolute values. The bound is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)),
-    rounded to three digits. The remainder of the Taylor polynomial of exp(A) is then below 2^-10 times the
-    unit roundoff. A larger remainder would change the length of the vector exp(A) y noticeably during a long
-    run, because it would change the length by the same factor in every step.
+    rounded to three digits. With this bound, the truncation error of the Taylor polynomial is about 2^-10
+    times the unit roundoff 2^-bits. A larger truncation error could accumulate during a long run.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -107,8 +107,8 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """One tuple for each row of A. This tuple contains a pair (index of the argument, column) for each
-        entry of the row that is an argument.
+        """One tuple for each row of A. The tuple of a row contains one pair for each entry of the row that is
+        an argument. The pair consists of the index of the argument and the column of the entry.
         """
         entries = list(enumerate(self.places))
         return tuple(
@@ -124,14 +124,18 @@ class ExponentialAction(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications for a Taylor polynomial of degree 18 without
-        halvings.
+        """The estimated numbers of additions and multiplications. The estimate assumes that the Taylor
+        polynomial has degree 18 and is applied once.
         """
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
 
     def matrix(self, args: Sequence[Scalar], zero: Scalar) -> list[Scalar]:
-        """Return all entries of A row by row, where ``args`` begins with those entries that are arguments."""
+        """Return all entries of A, row by row.
+
+        ``args`` begins with the entries of A that are arguments of the function. ``zero`` is used for all
+        other entries.
+        """
         result = [zero] * self.n**2
         for place, x in zip(self.places, args, strict=False):
             result[place] = x
@@ -152,8 +156,8 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # The block matrix contains zeros. If the matrix is not too large, ``expanded`` removes the zeros from
-        # the arguments.
+        # The block matrix contains zeros. If it has at most ``SPARSE`` rows, ``expanded`` removes the zeros
+        # from the arguments.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -164,7 +168,7 @@ class ExponentialAction(VectorFunction):
         If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call whose
         arguments are the non-zero entries of A, followed by y.
         """
-        # A function with a pattern is not simplified further: its arguments do not include zero entries.
+        # If ``pattern`` is not 0, the zero entries of A have already been removed from the arguments.
         if self.pattern:
             return None
         size = self.n**2
@@ -174,14 +178,14 @@ class ExponentialAction(VectorFunction):
         if not pattern:
             return tuple(args[size:])
         # For a matrix with more than ``SPARSE`` rows, a separate sum for each row would make the emitted code
-        # long. A loop over an array of all entries, also the zeros, is shorter.
+        # long. A loop over all entries of the matrix is shorter, so the zero entries remain arguments.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
         return args[0].space.vector(own.name, (*(args[k] for k in own.places), *args[size:]))
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return exp(A) y for doubles. Emitted code executes the same operations."""
+        """Return exp(A) y for doubles. Emitted code computes exp(A) y by the same operations."""
         entries, rows = len(self.places), self.rows
         a, y = list(args[:entries]), list(args[entries:])
         # ``norm`` is the largest row sum of absolute values.
@@ -211,7 +215,7 @@ class ExponentialAction(VectorFunction):
                 weight *= k
                 # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # Now ``weight`` is m!. The new vector is y + A (p/m!).
+            # Now ``weight`` is m!, where m is ``degree``. The vector y is replaced by y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -224,8 +228,9 @@ class ExponentialAction(VectorFunction):
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # y is multiplied ``parts`` times by exp(A/``parts``). All row sums of A are at most ``largest``, so
-        # the norm of A/``parts`` is below 1. The Taylor series then loses only few digits by cancellation.
+        # The vector y is multiplied ``parts`` times by exp(A/``parts``). The norm of A is at most
+        # ``largest``, so the norm of A/``parts`` is below 1. For such a small norm, the Taylor series loses
+        # only few digits by cancellation.
         parts = int(largest) + 1
         work = context.clone()
         # Each product with exp(A/``parts``) adds a rounding error, so the working precision is higher than
@@ -249,15 +254,15 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # Let A_0 be the nilpotent matrix of the constant terms, so that A_0^n = 0. Powers of h above h^p are
-        # truncated. Then A^(n (p + 1)) is zero: each summand of the expanded power contains the factor A_0^n
-        # or a power of h above h^p.
+        # The series has at most n (p + 1) non-zero terms, where p is ``ring.order``. To see this, let A_0
+        # be the nilpotent matrix of the constant terms, so that A_0^n = 0. If the power A^(n (p + 1)) is
+        # expanded, each summand contains the factor A_0^n = 0, or a power of h that is truncated.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each term is a multiple of A times the previous term. If one term is zero, all later terms are
-            # zero.
+            # Each term is computed from the previous term by a product with A. If one term is zero, all later
+            # terms are therefore zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]
@@ -267,8 +272,10 @@ class ExponentialAction(VectorFunction):
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y. ``a`` contains the entries of A. ``rows`` contains one sequence for each row of A. The
-    sequence consists of one pair (index in ``a``, column) for each entry of the row.
+    """Return A y.
+
+    ``a`` contains the entries of A that may be non-zero. ``rows`` contains a sequence for each row of A. For
+    each entry of the row that is in ``a``, the sequence contains a pair: the index in ``a``, and the column.
     """
     result = []
     for row in rows:

@@ -1,10 +1,10 @@
-"""Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
+"""Scalar expressions. An expression is an immutable node of a :class:`Space`.
 
 A space stores equal expressions only once, so they are the same object. Nodes are numbered in the order of
 their creation, and each compilation uses a new space. Hence the order of operands and the emitted text depend
-only on the input of the compilation. A new node is simplified only by local rules for constants, zeros, ones,
-signs and x - x. A nested sum (a + b) + c is not flattened to one sum of three terms, because other
-expressions could then no longer share the subexpression a + b.
+only on the input of the compilation. New nodes are simplified by local rules. For example, x - x becomes 0. A
+nested sum (a + b) + c is not replaced by one sum of three terms, because other expressions could then no
+longer share the subexpression a + b.
 
 The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
 ``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
@@ -58,8 +58,8 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # quotient(a, b) is a/b for b != 0, and 0 for b = 0. It is used for quotients that tend to 0 as b tends to
-    # 0.
+    # The function quotient(a, b) is a/b for b != 0, and 0 for b = 0. It is used if a/b tends to 0 as b tends
+    # to 0.
     "quotient",
 )
 
@@ -184,8 +184,7 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # The floating-point values of x + x and 2 x are equal. The node 2 x may already exist and is then
-        # shared.
+        # The sum a + a is replaced by the product 2 a, which has the same floating-point value.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. Floating-point addition is
@@ -205,8 +204,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # The sign is moved outside: -x - b = -(x + b). The node x + b may already exist. The negation is
-            # often free, because y + (-(x + b)) becomes the difference y - (x + b).
+            # Here a = -x. The difference -x - b is replaced by -(x + b). This negation often disappears: the
+            # sum y + (-(x + b)) becomes the difference y - (x + b).
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -224,15 +223,15 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # c (d x) = (c d) x for constants c and d. The product c d is rounded to a double only when it is
-            # printed.
+            # For constants c and d, the product c (d x) becomes (c d) x. The product c d is exact. It is
+            # rounded to a double only when it is printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # Here b = -y. If the factor a is a constant, a b becomes (-a) y. Otherwise a b becomes -(a y), so
-            # that a y and a b share one product.
+            # Here b = -y. If a is a constant, the product is (-a) y, where -a is also a constant. Otherwise
+            # the product is -(a y), so that other expressions can share the node a y.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -270,8 +269,8 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power is rounded to a double only when it is printed. Repeated multiplication is fast
-            # enough, because exponents in formulas are small.
+            # The power of a constant is computed exactly. Repeated multiplication is fast enough, because
+            # exponents in formulas are small.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -294,8 +293,8 @@ class Space:
         known = _folded(function, args)
         if known is not None:
             return known
-        # ``PiecewisePolynomial`` is a subclass of ``str``. Its name is different for each table, so FUNCTIONS
-        # cannot contain it.
+        # A table of class ``PiecewisePolynomial`` is also a string. Each table is a different string, so
+        # ``FUNCTIONS`` cannot contain all tables.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test, an unknown name would cause an error only when the expression is printed.
@@ -336,8 +335,8 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring. Their sum and product can then be computed exactly."""
-    # Every ring contains the rational numbers. Constants of two different rings have a known common ring only
-    # if one of the constants is rational.
+    # Every ring contains the rational numbers, so a rational constant belongs to the ring of the other
+    # constant, too.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
@@ -366,8 +365,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The loop goes on with the arguments of ``arg``. The stack stores the node that uses
-                    # ``arg``, and its remaining arguments.
+                    # The arguments of ``arg`` are visited before ``arg``. Meanwhile the stack stores ``node``
+                    # and the iterator over the remaining arguments of ``node``.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -400,7 +399,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # name of the function and the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
-        # ``walk`` yields the arguments of a node before the node, so their values are already known.
+        # ``walk`` yields the arguments of a node before the node, so the arguments already have values.
         args = node.args
         if node.op in _BINARY:
             value = _BINARY[node.op](result[args[0]], result[args[1]])
@@ -442,8 +441,7 @@ def power(x: Scalar, n: int) -> Scalar:
 
 def text(root: Expr) -> str:
     """Return an expression as readable text, fully parenthesised."""
-    # ``walk`` yields arguments first. The texts of the arguments of a node are therefore already in
-    # ``parts``.
+    # ``walk`` yields the arguments of a node before the node, so their texts are already in ``parts``.
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):
