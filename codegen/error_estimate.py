@@ -60,8 +60,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on t alone, it has the same value in all stages at the same time. The method and the
-    # embedded method may then give the same result although their orders differ.
+    # If the field depends on t alone, it has the same value in all stages at the same time. The method and
+    # its embedded method may then give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
