@@ -1,7 +1,7 @@
 """Compile a method for a scene, and emit the files of a module with its manifest entry.
 
 :func:`compile_method` translates the method and the scene to a step program, optimises the program in
-several passes, and translates it to a kernel. A kernel consists of scalar assignments and loops.
+several passes, and translates the optimised program to a kernel.
 :func:`emit_compiled` prints the kernel. Emitted files depend only on the scene, the method and the options,
 so the same arguments give the same bytes.
 """
@@ -85,7 +85,8 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the chosen classical form, or None. ``scene`` contains the equations in this form.
+    - ``form`` is the classical form of the equations that the caller has chosen, or None. If a form is
+      chosen, ``scene`` contains the equations in this form.
     """
 
     kernel: Kernel
@@ -99,7 +100,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene, without a kernel.
 
-    The group may have operations without closed forms, because only a kernel needs closed forms.
+    No kernel is needed, so the operations of the group need not have closed forms.
     """
     scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
@@ -123,7 +124,7 @@ def compile_method(
 ) -> Compiled:
     """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
-    - ``scene``, ``method``: objects or names. ``family``: the family, if ``method`` is a tableau.
+    - ``scene``: an object or a name. ``method``: an object, a name, or a tableau of the ``family``.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
       not listed are constants.
     - ``inputs``: signals that become run-time inputs.
@@ -170,9 +171,10 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return the scene with the listed signals and parameters as run-time arguments.
+    """Return the scene after the listed parameters and signals have been changed.
 
-    A parameter with a value (``alpha=1/2``) becomes a constant.
+    A parameter with a value (``alpha=1/2``) becomes a constant. A parameter without a value, or a signal,
+    becomes a run-time argument.
     """
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
@@ -212,9 +214,8 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    An outlined function contains operations that a step repeats. Explicit steps are translated without
-    outlined functions, because C compilers do not vectorise loops that contain calls. MethodError is raised
-    for a semilinear equation.
+    C compilers do not vectorise loops that contain calls. Therefore most explicit steps are translated
+    without functions for repeated operations. MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -277,8 +278,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # A method with a cut-off truncates the series of dexp^{-1}, so it cannot use the closed form in
-        # ``coordinates``.
+        # ``scene.coordinates`` is a coordinate map with a closed form. A method with a cut-off truncates the
+        # series of dexp^{-1}, so it cannot use this closed form.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -330,8 +331,8 @@ def emit(
     ``auto`` for the cheapest. ``form`` is the key of a classical form of the scene, by default the form in
     which the scene states its equations. ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
-    output at given times. With ``adaptive``, this run also has bounds on step sizes. ``events`` is the number
-    of event functions of this run. ``dense`` uses the continuous extension of the tableau at output times.
+    output at given times. If ``adaptive`` is also True, the run has bounds on step sizes. ``events`` is the
+    number of event functions of the run. ``dense`` uses the continuous extension at output times.
     ``compensate`` extends the state by the rounding errors of compensated summation. These errors are zero
     in the initial state. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and
     InputError for a prefix that is not a valid name in C.
@@ -373,8 +374,9 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    The header shows the command that emits the module. ``named`` contains the names of scene and method in
-    this command. ``order`` is the result of :func:`certified_order`. If ``order`` is None, it is computed.
+    The header shows the command that emits the module. In this command, the scene and the method have the
+    names that ``named`` contains. ``order`` is the result of :func:`certified_order`. If ``order`` is
+    None, this result is computed.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -422,8 +424,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A parameter may be listed twice, without a value and with a value. It is then a run-time argument, and
-    # the value is its default value.
+    # A run-time argument may have a default value. The command then has two options for the argument: one
+    # without a value, and one with the default value.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
@@ -436,7 +438,7 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a kernel as a module in a target language. ``about`` is added to its manifest entry.
+    """Return a module for a kernel in a target language. ``about`` is added to the module's manifest entry.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
     target, and InputError is raised if the target or the precision is not available for this kernel.

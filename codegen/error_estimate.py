@@ -5,8 +5,9 @@ have the same leading error term, the estimate has a higher order than the local
 called blind.
 
 A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
-In these two cases both orders are measured: very short steps of two sizes are computed with 100 digits. The
-local error is measured as the difference between one step of size h and two steps of size h/2.
+In these two cases, the order of the estimate and the order of the local error are measured. For this purpose,
+very short steps of two sizes are computed with 100 digits. The local error of a step of size h is replaced by
+the difference between this step and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -27,16 +28,17 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""For the smaller step size h, the power h^(order + 2) is 10^-SMALLEST.
+"""A number that determines the smaller step size.
 
-The unit of h is the length of the time interval of the scene. ``order`` is the order of the method.
+This size is the length of the time interval of the scene times 10^(-SMALLEST / (p + 2)). Here p is the order
+of the method.
 """
 
 ROUNDING = 1e-90
-"""A bound of the relative rounding errors of two steps that are computed with DIGITS digits.
+"""A bound for relative rounding errors in computations with DIGITS digits.
 
-Two states count as equal if their largest difference is at most ROUNDING times max(1, m). Here m is the
-largest absolute value in the first state.
+It is used to compare two states. The states count as equal if the largest difference of their entries is at
+most ROUNDING times max(1, m). Here m is the largest absolute value of an entry of the first state.
 """
 
 RATIO = 8
@@ -58,8 +60,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on t alone, stages at the same time have equal values. Therefore the method and the
-    # embedded method may give the same result although their orders differ.
+    # If the field depends on t alone, it has the same value in all stages at the same time. The method and
+    # its embedded method may then give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
@@ -143,9 +145,9 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 def _hint(method: Method, scene: Problem) -> str:
     """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    The cut-off of a method is the number of brackets in the series of dexp^{-1}. With a larger cut-off, the
-    estimate may not be blind. The hint recommends the smallest such cut-off. If there is none, the hint
-    recommends another tableau.
+    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The hint recommends the
+    smallest larger cut-off for which the estimate is not blind. If no cut-off up to LARGEST_CUTOFF is
+    suitable, the hint recommends another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -23,8 +23,8 @@ change from positive to negative.
 class Event:
     """An event: the zeros of a function g(t, y).
 
-    ``direction`` says which zeros are events: RISING (1), FALLING (-1), or 0 for both directions. A
-    ``terminal`` event ends the run.
+    ``direction`` says which zeros count: RISING (1), FALLING (-1), or 0 for both directions. If ``terminal``
+    is true, such a zero ends the run.
     """
 
     function: EventFunction
@@ -43,7 +43,12 @@ class Event:
 
 @dataclass(frozen=True)
 class Crossing:
-    """A zero of an event function: the index of the event, the time, the direction, and the state."""
+    """A zero of an event function.
+
+    - ``event`` is the index of the event.
+    - ``t`` is the time of the zero, and ``state`` is the state at this time.
+    - ``direction`` is RISING or FALLING.
+    """
 
     event: int
     t: float
@@ -54,9 +59,9 @@ class Crossing:
 def events_of(given: object, most: int) -> tuple[Event, ...]:
     """Return the events in the list ``given``, which contains events and functions.
 
-    A function becomes an event that does not end the run. ``most`` is the number of events that the emitted
-    module accepts. ValueError is raised for more events, or for a direction other than 1, -1 and 0. TypeError
-    is raised if ``given`` is not a sequence, or if an entry is neither an event nor a function.
+    A function becomes an event that does not end the run. The emitted module accepts at most ``most`` events.
+    ValueError is raised if ``given`` contains more events, or if the direction of an event is not 1, -1 or 0.
+    TypeError is raised if ``given`` is not a sequence, or if an entry is neither an event nor a function.
 
     >>> events_of([lambda t, y: y[0]], 1)[0].stops
     0
@@ -104,5 +109,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. Unused values are the constant 1, which has no zero.
+        # Emitted code reads ``size`` values. Additional values are 1, so emitted code finds no zero of them.
         return values + [1.0] * (self.size - len(values))

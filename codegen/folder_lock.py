@@ -1,6 +1,6 @@
 """A lock on a folder, so that only one process at a time writes to the folder.
 
-The lock is on the folder itself and ends with the process, so a killed process leaves no lock file.
+There is no lock file: the operating system locks the folder itself. If a process is killed, its lock ends.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     """Lock an existing folder during a ``with`` block, and yield True if the folder was locked.
 
     Several processes may have a ``shared`` lock at the same time. By default the lock is exclusive, and only
-    one process can have it. The result is False if the file system has no locks. It is also False if ``wait``
-    is false and another process has locked the folder.
+    one process can have it. False is yielded if the file system has no locks. False is also yielded if
+    ``wait`` is false and another process has locked the folder.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:
@@ -26,7 +26,7 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     ...         held, again
     (True, False)
     """
-    # Windows has no flock, so nothing is locked. Each file is still complete, because renames are atomic.
+    # The function flock is not available on Windows, so the folder is not locked there.
     if sys.platform == "win32":
         yield False
         return

@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
-The header states facts about the method and the scene. It also lists operations and arguments that a step
-needs in general, but that this module does not need.
+The header states facts about the method and the scene. It also lists operations and arguments that the module
+does not need, although other modules need them.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # The header line ``digits`` is about rounded coefficients. Methods without a tableau have none.
+    # The header line ``digits`` is about the rounded coefficients of a tableau. If the method has no tableau,
+    # there is no such line.
     tableau = method.coefficients is not None
     carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
@@ -163,7 +164,10 @@ def substeps_of(kernel: Kernel) -> str:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each operation or argument that the module does not need, with the reason."""
+    """Return a line for each operation or argument that the module does not need.
+
+    The line also gives the reason.
+    """
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]

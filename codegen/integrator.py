@@ -1,8 +1,8 @@
 """Integrators: emitted modules as Python objects with methods for steps, runs, trajectories and Jacobians.
 
-A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order. A batch of states is an
-array with one state in each row (:mod:`codegen.state_form`). Every method returns states of the type in which
-the caller passed the state.
+A state is a flat sequence of numbers, a NumPy array, or a tuple such as (q, mu). A batch of states is an
+array with one state in each row. The module :mod:`codegen.state_form` describes these types. Every
+method returns states of the same type as the state that the caller passed.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ class Integrator(RunToEnd):
     def fields(self) -> Fields:
         """The name and the size of each part of a state, such as q and mu.
 
-        A state may be given as a tuple of these parts, in the same order. The result is empty if the
-        integrator was not loaded from emitted files.
+        A state may be given as a tuple of its parts. The tuple must have the same order as ``fields``. The
+        tuple ``fields`` is empty if the integrator was not loaded from emitted files.
         """
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
@@ -142,11 +142,13 @@ class Integrator(RunToEnd):
         t_eval: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return a list of states: the initial state and every stride-th state after it.
+        """Return a list of states. Exactly one of the arguments ``steps`` and ``t_eval`` must be given.
 
-        If a monotone sequence of times is given as ``t_eval``, the result is a list of the states at these
-        times. ``t`` is the time of the initial state. Between two successive times all steps have the same
-        size. The absolute value of this size is at most abs(h).
+        If ``steps`` is given, the list contains the initial state and every ``stride``-th state after it.
+
+        ``t_eval`` is a monotone sequence of times, and ``t`` is the time of the initial state. If ``t_eval``
+        is given, the list contains the states at these times. A step ends at each of these times, so steps
+        may be shorter than ``h``.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -166,8 +168,8 @@ class Integrator(RunToEnd):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at ``times``.
 
-        Between two successive times all steps have the same size. The absolute value of this size is at most
-        abs(h).
+        A step ends at each of these times. The steps between two successive times have equal sizes, and they
+        are not longer than abs(h).
         """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
@@ -210,8 +212,8 @@ class Integrator(RunToEnd):
         - ``end`` is the end of the run, by default the last time in ``t_eval``.
         - ``limit`` is the largest number of steps.
 
-        A batch is integrated state by state. The result for a batch contains an array of states, and the
-        numbers of steps are sums over all states.
+        If ``state`` is a batch, its states are integrated one after another. The result then contains an
+        array of states. Its numbers of steps are sums over all states.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
         step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
@@ -252,9 +254,9 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Integrate with step-size control to each of the ``times`` in turn. The last time is the end.
+        """Integrate with step-size control to the last time in ``times``. A step ends at each of the times.
 
-        The result contains the state at the last time, and the states at all earlier ``times``.
+        The result contains the states at all ``times``.
         """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
@@ -262,7 +264,7 @@ class Integrator(RunToEnd):
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
             # If ``time`` was reached in one step, this step may have been shortened to end at ``time``. The
-            # proposed size ``arrival.h`` may then be too small, so a larger size ``h`` is kept.
+            # proposed step size ``arrival.h`` may then be too small. Thus a larger previous size is kept.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -284,8 +286,8 @@ class Integrator(RunToEnd):
 
         - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
         - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
-        - ``out`` is an array of shape (N, size) in Fortran order. The result is written into this array. If
-          ``out`` is the array ``states`` itself, no state is copied.
+        - ``out`` is an array of shape (N, size) in Fortran order, to which the new states are written.
+          ``out`` and ``states`` may be the same array. The states are then not copied.
         - A parameter is a number, or an array of N numbers.
 
         If a step of a system fails, no error is raised. The result contains the status of each system
@@ -316,10 +318,11 @@ class Integrator(RunToEnd):
         return BatchRun(table.T, statuses, completed)
 
     def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
-        """Replace the states in ``table`` by the new states of all systems.
+        """Run all systems, and replace the states in ``table`` by the new states.
 
         Return two arrays: the status of each system, and the number of completed steps of each system.
-        ``moment`` contains the time t, the step size h, and the number of steps.
+        ``moment`` contains the initial time, the step size, and the number of steps. ``values`` contains the
+        parameters of each system, and ``held`` contains its run-time inputs.
         """
         import numpy as np
 
@@ -368,7 +371,7 @@ class Integrator(RunToEnd):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Check the arguments of a run and return them.
+        """Check the arguments of a run, and return an object that contains them.
 
         TypeError is raised for an unknown parameter, and for wrong ``inputs`` or ``statistics``. ValueError
         is raised for a wrong state.
@@ -404,7 +407,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Increase the caller's ``statistics`` by the iteration counts that emitted code has returned."""
+        """Update the caller's ``statistics`` by the iteration counts that emitted code has returned."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -416,7 +419,10 @@ class Integrator(RunToEnd):
     def _call(
         self, begun: Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Make steps of size h. Return the final state, and every stride-th state if stride is not 0."""
+        """Make steps of size h. Return the final state and a sequence of states.
+
+        If ``stride`` is not 0, the sequence contains every ``stride``-th state.
+        """
 
     @abstractmethod
     def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:

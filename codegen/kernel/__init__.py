@@ -1,1 +1,1 @@
-"""The backend: it translates the program of a step to a kernel, an ordered list of scalar statements."""
+"""The backend: it translates the program of a step to a kernel, which is a sequence of statements."""

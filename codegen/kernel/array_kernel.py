@@ -75,8 +75,8 @@ def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
     The compiler passes rewrite the program of a step. They do not depend on the field or on the size of the
-    matrices, so each pass is verified on a small problem on the sphere. MethodError is raised for a method
-    that has no kernel (:func:`array_kernel`).
+    matrices, so each pass is verified on a small problem on the sphere. MethodError is raised if
+    :func:`array_kernel` cannot translate the method.
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -90,8 +90,8 @@ def compiled(
 ) -> ArrayMethod:
     """Compile ``method`` for ``scene``. The small problem ``model`` is used to verify each compiler pass.
 
-    The function ``kernel`` translates the program of a step to a kernel for ``scene``. If the method has
-    implicit stages, the error that ``refusal`` returns is raised.
+    The function ``kernel`` translates the program of a step to a kernel for ``scene``. The function
+    ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
     # In the lowered program each stage is a block of equations. ``blocks.run`` replaces the blocks of
@@ -111,17 +111,17 @@ def _model(timed: bool) -> Problem:
 
     x, y, z = point = symbols("x y z", real=True)
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The field has no symmetry. With a symmetric field, a wrong pass might not change the results.
+    # The field has no symmetry, because a symmetric field might hide an error of a compiler pass.
     field_on_sphere = Column([y * z + t / 2, x - z * Rational(1, 3), x * y + Rational(1, 5)])
     start = Column([1, 0, 0])
     return FieldScene(group=SO3(), action=Rotation(), y=point, f=field_on_sphere, y0=start, span=(0, 1))
 
 
 def array_kernel(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of an explicit program on a scene whose field is given by formulas with matrices.
+    """Return the kernel of a step program on a scene whose field is given by formulas with matrices.
 
-    MethodError is raised for implicit stages, and for operations that have no formula for matrices of low
-    rank.
+    MethodError is raised if the program has implicit stages, or an operation that is not available for large
+    matrices.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -130,7 +130,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
     # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
-    # expressions. The number 0 is replaced later by the order of the estimate.
+    # expressions. The order 0 is a placeholder that the caller replaces.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -139,9 +139,9 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 class _Builder:
     """Collects the statements of one step.
 
-    An element of the algebra is the matrix B S B^T, where B is the basis and S is called its core. A point is
-    the matrix X_0 + B D, where X_0 is the old state and D is called its displacement
-    (:mod:`codegen.ir.array_step`).
+    All values are represented with a matrix B, which is called the basis. An element of the algebra is the
+    matrix B S B^T, and S is called its core. A point is the matrix X_0 + B D, where X_0 is the old state. The
+    matrix D is called the displacement of the point (:mod:`codegen.ir.array_step`).
     """
 
     program: Program
@@ -157,7 +157,8 @@ class _Builder:
     def __post_init__(self) -> None:
         count = sum(isinstance(a.operation, Field) for a in self.program.assigns())
         n, k = self.matrices.rows, self.matrices.columns
-        # The basis has k columns for the old state, and k more columns for each evaluation of the field.
+        # The state has k columns. The basis has k columns for the old state, and k columns for each
+        # evaluation of the field.
         self.k, width = k, k * (1 + count)
         self.argument = Matrix(STATE, n, k)
         self.basis, self.gram = Matrix(BASIS, n, width), Matrix(GRAM, width, width)
@@ -174,7 +175,7 @@ class _Builder:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
             else:
-                # The old state is X_0, so its displacement is zero. None represents the zero matrix.
+                # The displacement of the old state X_0 is zero, which is represented by None.
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -191,11 +192,11 @@ class _Builder:
         self.displaced(result, new)
         body = tuple(self.body)
         lower = None if embedded is None else self.points[embedded]
-        # Without an embedded method, the step has no error estimate.
+        # If there is no embedded method, ``lower`` is None, and the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the basis times the difference of the two displacements. Both points contain the
-        # summand X_0, so a difference of the points would lose digits.
+        # The estimate is the new state minus the embedded solution. Both contain the summand X_0. Rounding
+        # errors are smaller if only the displacements are subtracted. The basis is multiplied by the result.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -260,17 +261,18 @@ class _Builder:
         # ``w`` consists of the first k unused columns of the basis. The value of the field is written there.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
-        # If the program has no time variable, the field does not depend on time. Any value can then be used
-        # for the time, for example 0.
+        # If the program has no time variable, the field does not depend on time. The value 0 is then used.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
-        # ``w`` contains the field V at the point X. The next statements change V to W = V - X (X^T V)/2.
+        # The matrix ``w`` now contains the field V at the point X. The next statements replace V by
+        # W = V - X (X^T V)/2.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
-        # B now contains W as its last block. Therefore the Gram matrix B^T B gets the block column B^T W.
+        # W is a new block of k columns of the basis B. The next statement computes the new block column B^T W
+        # of the Gram matrix B^T B.
         known = self.basis.part(0, 0, n, first + k)
         self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
         # The Gram matrix is symmetric, so the new block row is the transpose of the new block column.
@@ -279,23 +281,23 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the core S of the field at a point X, and return S.
+        """Append the computation of the core S of the field at a point X, and return S.
 
-        The point is X = X_0 + B D. Here D is the ``displacement``, and None means D = 0. The field at X is
-        the element W X^T - X W^T of the algebra. X_0 and W are blocks of k columns of the basis B. X_0 begins
-        with the column 0, and W begins with the column ``first``.
+        The point is X = X_0 + B D, where X_0 is the old state, B is the basis, and D is the ``displacement``.
+        None means D = 0. The matrix W consists of k columns of B and begins with the column ``first``. The
+        field at X is the element W X^T - X W^T of the algebra.
 
-        Hence X_0 = B J and W = B E, where the columns of J and E are unit vectors. With C = J + D, the point
-        is X = B C, and the core is S = E C^T - C E^T.
+        Let J and E be the matrices with X_0 = B J and W = B E. Their columns are unit vectors. With
+        C = J + D, the point is X = B C. The field is B S B^T with the core S = E C^T - C E^T.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # S is the sum of E J^T - J E^T and E D^T - D E^T. In the first summand, the block ``below`` of the
-        # core is the unit matrix, and the block ``right`` is minus the unit matrix.
+        # S is the sum of two matrices: E J^T - J E^T and E D^T - D E^T. The first matrix has two nonzero
+        # blocks: the unit matrix in the block ``below``, and minus the unit matrix in the block ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # E D^T fills k rows of the core, and -D E^T fills k columns.
+            # The second matrix E D^T - D E^T contains D^T in its last k rows, and -D in its last k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -334,9 +336,10 @@ class _Builder:
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
         """Append the computation of a linear combination of cores, and return the result.
 
-        A core S represents the element B S B^T of the algebra. The result has the size of the largest core.
+        Each pair in ``terms`` contains a coefficient and a core. A core may be smaller than the result, which
+        has the size of the largest core.
         """
-        # Smaller cores are extended by zeros. They then still represent the same elements.
+        # A smaller core is extended by zeros. It still represents the same element of the algebra.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
@@ -347,8 +350,8 @@ class _Builder:
         matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        # The products in N = x (G y) contain only small matrices. Their sizes do not depend on the number of
-        # rows of the state.
+        # The sizes of x, G and y do not depend on the number of rows of the state. Therefore the products are
+        # cheap for a state with many rows, too.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -364,8 +367,8 @@ class _Builder:
         ``order`` nested brackets.
         """
         terms, power = [(self.one, y)], y
-        # dexp^{-1}_x y is the sum of B_k/k! ad_x^k y over k, with the Bernoulli numbers B_k. ``power``
-        # contains ad_x^k y.
+        # With the Bernoulli numbers B_k, the series is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + .... The
+        # bracket in the term with B_k is ``power``.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)
@@ -377,8 +380,8 @@ class _Builder:
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
         """Append the computation of the point exp(B S B^T) X, and return its displacement.
 
-        B is the basis, and S is the ``core``. The point X has the displacement ``start``, where None means
-        zero.
+        B is the basis, and S is the ``core``. ``start`` is the displacement of the point X. If this
+        displacement is zero, ``start`` is None.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
