@@ -1,9 +1,12 @@
 """The keys that all tableau formats share, and functions that read rows of coefficients.
 
-A file is read in two steps, because the ring of a tableau depends on all its coefficients. First,
-``coefficients`` yields the text of every coefficient with its position in the file. After all coefficients
-are evaluated, ``build`` receives the value at each position. A position consists of a key and indices, such
-as ``A[2][1]``. The indices count from 1.
+All coefficients of a tableau are elements of one ring, for example of the rational numbers. The ring is
+chosen after all coefficients are read. Therefore a file is read in two steps:
+
+1. ``coefficients`` yields the text of every coefficient with its position in the file.
+2. ``build`` receives the value of every coefficient and returns the method.
+
+A position consists of a key and indices, such as ``A[2][1]``. The indices count from 1.
 """
 
 from __future__ import annotations
@@ -27,25 +30,27 @@ MAX_PARTS = 6
 
 
 class RootEntry(Struct, forbid_unknown_fields=True):
-    """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial. The
-    decimal ``near`` identifies the root. Exactly one root lies within one unit of the last digit of this
-    decimal."""
+    """A real root of a polynomial. ``minpoly`` contains the coefficients of the polynomial, beginning with
+    the constant term. The decimal ``near`` is an approximation of the root. Its error is at most one unit of
+    its last digit. No other real root may be so close to ``near``."""
 
     minpoly: list[Coefficient]
     near: str
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order in a family, for one value of the option ``cutoff`` of the family. The family
-    truncates a series, such as the series of dexpinv, after the power ``cutoff``."""
+    """The claimed order of a method in a family of methods that truncates a series, such as the series of
+    dexpinv. The option ``cutoff`` is the highest power in the truncated series. The claim is for one value of
+    this option."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The table ``[proof]``. It defines equations that have an exact solution close to the rounded decimals
-    of the file. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
+    """The table ``[proof]`` of a file with rounded decimals. It defines equations for the exact coefficients.
+    The equations have a solution close to the rounded decimals. The keys are explained in
+    :mod:`orderconds.tableau.unknowns`."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -58,16 +63,17 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims``: True or False for a property, the order in a family, or a list of orders
-for several values of the option ``cutoff`` of a family."""
+"""A value in the table ``claims``. For a property, the value is True or False. For a family of methods, the
+value is the order of the method in this family. If the order depends on the option ``cutoff`` of the family,
+the value is a list of :class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The base class of all formats, with the keys that all formats share. The values in the table
+    """The base class of all formats. It defines the keys that all formats share. The values in the table
     ``numbers`` have the type :data:`Number`. The values in the table ``claims`` have the type :data:`Claim`.
 
-    The value of ``family`` is the name of the format, and also of a family of methods. ``order`` is the
-    claimed order of the method in this family.
+    ``family`` is the name of the format. A family of methods has the same name. ``order`` is the claimed
+    order of the method in this family.
     """
 
     name: str
@@ -82,15 +88,16 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """If a tableau is stored in named arrays, its format is recognised by the array with this name. The name
-    is empty for the default format."""
+    """The name of an array. If a tableau is stored in named arrays, and one of them has this name, then the
+    tableau has this format. The default format has an empty name here."""
     as_products: ClassVar[bool] = False
-    """True if the array ``exponentials`` stores the coefficients (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format consists of products of exponentials. Named arrays store their
+    coefficients in the array ``exponentials`` (:mod:`orderconds.exchange.arrays`)."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for keys that are missing if a tableau is stored in named arrays. ``names``
-        contains the names of these arrays."""
+        """Return default values for the keys of a tableau that was stored in named arrays. ``names`` contains
+        the names of the arrays. A caller uses the default value of a key only if the key is missing."""
         return {}
 
     def coefficients(self) -> Places:
@@ -103,17 +110,17 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method and its embedded method. Without an embedded method, the second value is None.
-        ``values`` maps each position in the file to the value of its coefficient."""
+        ``values`` maps the position of each coefficient to the value of the coefficient."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
-        """Return the continuous extension, or None if the file has none. ``values`` maps each position in the
-        file to the value of its coefficient."""
+        """Return the continuous extension, or None if the file has none. ``values`` maps the position of each
+        coefficient to the value of the coefficient."""
         return None
 
 
 def row_places(row: list[Coefficient], place: str) -> Places:
-    """Yield the position in the file and the text of each entry of a row.
+    """Yield a pair for each entry of a row: the position of the entry in the file, and the entry.
 
     >>> list(row_places(["1/2", 1], "b"))
     [('b[1]', '1/2'), ('b[2]', 1)]
@@ -124,7 +131,7 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
     """Return a row of coefficients, padded with zeros to length ``s``. ``place`` is the position of the row
-    in the file. ``values`` maps the position of each coefficient to its value.
+    in the file. ``values`` maps the position of each coefficient to the value of the coefficient.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)
@@ -134,8 +141,8 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. In the message,
-    ``noun`` is the name of the counted objects.
+    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. The error
+    message contains ``noun``, the name of the objects whose number is s.
 
     >>> counted(3, "b")
     3

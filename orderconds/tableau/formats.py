@@ -1,4 +1,5 @@
-"""The formats of a tableau file. Each class contains the keys of one format and builds the method."""
+"""The formats of a tableau file. Each subclass of :class:`Format` defines the keys of one format, and builds
+a method from the values of these keys."""
 
 from __future__ import annotations
 
@@ -38,24 +39,26 @@ MAX_DEGREE = 40
 
 
 class EmbeddedEntry(Struct, forbid_unknown_fields=True):
-    """A second row of weights, of lower order, for an error estimate."""
+    """The weights of an embedded method for an error estimate. The integer ``order`` is the order of this
+    method."""
 
     b: list[Coefficient]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ExtensionEntry(Struct, forbid_unknown_fields=True):
-    """The weights b_i(theta) of a continuous extension. Row i contains the coefficients of theta, theta^2,
-    ... in b_i(theta). Zeros at the end of a row may be omitted."""
+    """The weights b_i(theta) of a continuous extension. They are polynomials without a constant term. Row i
+    of ``b`` contains the coefficients of b_i, beginning with the coefficient of theta. Zeros at the end of a
+    row may be omitted."""
 
     b: list[list[Coefficient]]
     order: Annotated[int, Meta(ge=1)]
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "rk"``: a Butcher tableau. A is given by rows, in which zeros at the end may be
-    omitted. The optional c must equal the row sums of A. ``dense`` is a continuous extension
-    (:mod:`orderconds.tableau.extension`).
+    """The format ``family = "rk"``: a Butcher tableau with the matrix A and the weights b. Zeros at the end
+    of a row of A may be omitted. The nodes c may be omitted. If they are given, they must equal the row sums
+    of A. The key ``dense`` contains a continuous extension (:mod:`orderconds.tableau.extension`).
     """
 
     A: list[list[Coefficient]]
@@ -68,8 +71,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check the lengths of all rows. The number of stages s is the number of entries of b. A has s rows,
-        and no row has more than s entries."""
+        """Check that A has s rows, and that no row is too long. Here s is the number of stages, which is the
+        number of entries of b."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -101,8 +104,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield the position and the text of each coefficient: first A, then b, c, the embedded weights, and
-        the continuous extension."""
+        """Yield a pair (position in the file, text) for every coefficient. The order is: A, b, c, the
+        embedded weights, the continuous extension."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -185,7 +188,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield the position and the text of each coefficient: first A, then b, A_hat and b_hat."""
+        """Yield a pair (position in the file, text) for every coefficient. The order is: A, b, A_hat,
+        b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
@@ -203,24 +207,30 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials that is applied to stage ``from`` (counted from 1), or to y0 if the key
-    ``from`` is missing. ``exp`` contains one row of coefficients for each exponential. The first exponential
-    acts first."""
+    """A product of exponentials. It acts on the value of stage ``from``, where the first stage has the
+    number 1. If the key ``from`` is missing, the product acts on y0, the value at the start of the step.
+
+    Each row of ``exp`` defines one exponential. A row beta_1, ..., beta_s defines exp(h sum_j beta_j k_j).
+    Here h is the step size, and k_j is the vector field at stage j. The exponential of the first row acts
+    first.
+    """
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order. It uses the same stages. In a method with s stages, ``from`` = s + 1
-    means that the product acts on the result of the first update."""
+    """The embedded update, for an error estimate. It uses the same stages as the update of the method. In a
+    method with s stages, ``from`` = s + 1 means that the product acts on the result of the update of the
+    method."""
 
     order: Annotated[int, Meta(ge=1)]
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.
-    Here F is the vector field and h is the step size."""
+    """A low-storage scheme. A step stores only the state Y and one element K of the Lie algebra. Stage i
+    replaces K by A_i K + F(Y), and then replaces Y by exp(h B_i K) Y. Here F is the vector field, and h is
+    the step size."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -277,9 +287,9 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield the position and the text of each coefficient. The coefficients of a low-storage scheme are A
-        and B. For all other schemes, they are the coefficients of the stages and of the update. The
-        coefficients of the embedded update come last."""
+        """Yield a pair (position in the file, text) for every coefficient. For a low-storage scheme, A and B
+        are yielded first. Otherwise, the stages and the update are yielded first. The embedded update is
+        yielded last."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")
@@ -312,8 +322,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that no row is longer than s, and that the product starts from y0 or from one of the first
-    ``before`` stages."""
+    """Check the product of exponentials ``entry``. No row may have more than s entries, where s is the number
+    of stages. The product must act on y0 or on one of the first ``before`` stages."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -350,9 +360,10 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau that is stored in arrays with the names ``names``. Each format is
-    recognised by the name of one array (``distinctive_key``). If several formats fit, return the
-    alphabetically first format. If no format fits, return ``composition``.
+    """Return the format of a tableau that is stored in arrays with the names ``names``. A format fits
+    if ``names`` contains its ``distinctive_key``, the name of one array. If several formats fit, return the
+    format whose name comes first in the alphabet. If no format fits, return the default format,
+    ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

@@ -1,5 +1,8 @@
-"""The grammar of a coefficient. Coefficients are arithmetic expressions of bounded size. A recursive-descent
-parser reads the expressions, and no text is executed as code.
+"""The grammar of a coefficient. A coefficient is an arithmetic expression of bounded size. A
+recursive-descent parser reads the expression and does not execute it as code.
+
+In the grammar, ``x*`` means any number of repetitions of x, ``[x]`` an optional x, and ``x | y`` either x or
+y. Text in quotation marks appears literally in a coefficient.
 
 ::
 
@@ -11,11 +14,13 @@ parser reads the expressions, and no text is executed as code.
     atom     = number ["~" | "d"] | name | "sqrt" "(" sum ")" | "(" sum ")"
     number   = integer | decimal
 
-``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) whose radius is one unit
-of the last digit. The double ``0.3333333333333333d`` denotes a ball whose radius is a few rounding errors
-(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because it is ambiguous: it may mean (a^b)^c or
-a^(b^c). This module bounds the length of the text, the nesting and the exponents. The module
-:mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
+The decimal ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) around
+0.81772. The radius of this ball is 0.00001, one unit of the last digit. The double ``0.3333333333333333d``
+denotes a ball whose radius is defined in :mod:`orderconds.tableau.doubles`. The text ``a^b^c`` is an error,
+because it is ambiguous: it may mean (a^b)^c or a^(b^c).
+
+This module limits the length of a coefficient, its exponents and the depth of its parentheses. The module
+:mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
 """
 
 from __future__ import annotations
@@ -52,8 +57,8 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the number was given as a double. The radius ``unit`` shows this: it is a power of ten for
-        a rounded decimal, but not for a double."""
+        """True if the constant is the ball of a double. A rounded decimal with n decimal places has the
+        radius 1/10^n, and an exact number has the radius 0. All other radii belong to doubles."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
@@ -65,11 +70,11 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """Operands that are combined from left to right by ``operators``. A chain contains either the operators +
-    and -, or the operators * and /.
+    """A sum or a product of several operands. A sum has the operators + and -. A product has the operators *
+    and /. The operators are applied from left to right.
 
-    A long sum or product is one chain, so its length does not increase the nesting depth of an expression.
-    Only parentheses increase the depth.
+    A sum or product with many operands is a single chain. Therefore it does not increase the nesting depth of
+    an expression. Only parentheses increase the depth.
     """
 
     operators: tuple[str, ...]
@@ -101,7 +106,7 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return the text of an expression. If ``limit`` is given, stop after the first token that makes the text
+    """Return the text of an expression. If ``limit`` is given, stop writing as soon as the text is
     longer than ``limit`` characters.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
@@ -120,7 +125,8 @@ SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
 
 
 def _level(x: Expression) -> int:
-    """Return the precedence of the outermost operator of an expression."""
+    """Return the precedence of an expression, from SUM (lowest) to ATOM (highest). An expression with a lower
+    precedence needs parentheses inside an expression with a higher precedence."""
     if isinstance(x, Chain):
         minus = x.operators == ("-",) and x.operands[0] == ZERO
         return SIGN if minus else SUM if x.operators[0] in "+-" else PRODUCT
@@ -130,7 +136,7 @@ def _level(x: Expression) -> int:
 
 
 def _parts(x: Expression, least: int) -> Iterator[str]:
-    """Yield the text of x, in parentheses if the precedence of x is below ``least``."""
+    """Yield the text of x in pieces. If the precedence of x is below ``least``, add parentheses."""
     level = _level(x)
     if level < least:
         yield from ("(", *_parts(x, SUM), ")")
@@ -156,8 +162,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 def _constant(x: Constant) -> str:
     """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
-    ``~``. An exact number is printed as a decimal if its decimal expansion is finite, and otherwise as a
-    fraction in parentheses."""
+    ``~``. An exact number with a finite decimal expansion is written as a decimal. Other exact numbers are
+    written as fractions in parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -317,8 +323,9 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Return the double nearest to a decimal, together with its uncertainty. The uncertainty of
-        the number 0 is zero. Raises TableauError if the decimal is too large for a double."""
+        """Round a decimal to the nearest double, and return the ball of this double. The radius of the ball
+        is :func:`~orderconds.tableau.doubles.radius`. The double 0 is exact: its radius is zero. Raises
+        TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

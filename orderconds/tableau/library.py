@@ -1,4 +1,4 @@
-"""Access to the library of tableau files, in the source tree of the project or in the installed package."""
+"""Functions that find the tableau files of the library."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def root() -> Path:
     """Return the folder of tableau files.
 
-    If the package is in the source tree of the project, the folder is ``tableaux/`` of the source tree.
-    Otherwise the folder is the copy in the installed package.
+    In the source tree of the project, this is the folder ``tableaux``. An installed package contains a copy
+    of this folder, and the path of the copy is returned.
 
     >>> root().is_dir()
     True

@@ -1,6 +1,7 @@
-r"""Estimates of the printed width of LaTeX formulas, and line breaks for a two-column article.
+r"""Functions that estimate the printed width of LaTeX formulas, and that break equations into lines for a
+two-column article.
 
-Widths are estimates in points for Computer Modern at 10 points.
+All widths are in points, for the font Computer Modern at 10 points.
 """
 
 from __future__ import annotations
@@ -9,8 +10,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 COLUMN = 210.0
-"""The available width of a line, in points. The column width of the LaTeX class ``article`` is 229 points.
-The indentation of a paragraph is subtracted from this width."""
+"""The available width of a line, in points. It is the column width of the LaTeX class ``article`` (229
+points), reduced by the indentation of a paragraph."""
 
 INDENT = r"\quad "
 
@@ -39,7 +40,7 @@ _OTHER = 5.2
 4 to 6 points wide."""
 
 _SMALLER = 0.8
-"""The factor by which characters shrink in a fraction, an index or an exponent."""
+"""The size of characters in a fraction, an index or an exponent, relative to the surrounding text."""
 
 _SMALLEST = 0.68
 """The smallest size of a character relative to normal text."""
@@ -62,8 +63,8 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width from the current token to the end of the group in braces, or to the end of the
-        formula. ``scale`` is the size of the font relative to normal text."""
+        """Return the width of the rest of the formula. Inside of braces, return the width of the text up to
+        the closing brace. ``scale`` is the size of the font relative to normal text."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()
@@ -100,7 +101,8 @@ class _Reader:
 
 
 def at_top(latex: str, token: str) -> bool:
-    """Return True if a token occurs in a formula outside of braces.
+    """Return True if a formula contains a token that is not inside of braces. A token is a LaTeX command or a
+    single character.
 
     >>> at_top("a + b", " "), at_top(r"\\frac{a + b}{c}", " ")
     (True, False)
@@ -109,8 +111,8 @@ def at_top(latex: str, token: str) -> bool:
 
 
 def with_small_fractions(latex: str) -> str:
-    r"""Make the fractions outside of braces small. By default, LaTeX prints these fractions large in a
-    displayed formula.
+    r"""Return a formula with small fractions: each ``\frac`` that is not inside of braces is replaced by
+    ``\tfrac``.
 
     >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
     \tfrac{\frac{1}{2} + x}{3}
@@ -127,9 +129,9 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
-    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. ``left`` is the left-hand side,
-    and ``parts`` are the parts of the right-hand side. Lines are broken only between two parts. ``free`` is
-    the width that is available for the right-hand side.
+    r"""Yield the lines of an equation for the LaTeX environment ``aligned``. ``left`` is the left-hand side.
+    The strings ``parts`` form the right-hand side. A line break is allowed only between two of these strings.
+    ``free`` is the available width for the right-hand side, in points.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']
@@ -146,8 +148,8 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return several texts, one for each entry of a list. Together, the texts are the list in brackets. A
-    line break is allowed between two texts.
+    """Return one text for each entry of a list. Joined together, the texts form the list in brackets. A
+    caller may break the line between two texts.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

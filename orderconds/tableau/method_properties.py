@@ -1,7 +1,9 @@
-"""Properties of methods, such as symplecticity, as identities between coefficients.
+"""Functions that decide whether a method has a property, such as symplecticity. Each property is a set of
+conditions on the coefficients.
 
-Each property is True, False or None. None means that the coefficients are balls (intervals) that are too wide
-to decide. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+The functions return True, False or None. The result None occurs only for coefficients that are balls
+(intervals). It means that the balls are too wide for a decision. HLW denotes Hairer, Lubich and Wanner,
+*Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -27,13 +29,14 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide whether x = y. If x and y are the same object, the result is True. For a ball (interval), the
-    difference x - x could not prove this equality."""
+    """Return True if x = y, and None if this is undecided. For balls (intervals), x - x is a ball around zero
+    and does not prove that x equals itself. Therefore two references to the same object count as equal."""
     return True if x is y else ring.is_zero(x - y)
 
 
 def explicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is explicit: a_ij = 0 for j >= i.
+    """Return True if the method is explicit. The condition is a_ij = 0 for j >= i, where a_ij are the entries
+    of the matrix ``A`` of the method.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -44,7 +47,8 @@ def explicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is diagonally implicit: a_ij = 0 for j > i, and not all a_ii = 0.
+    """Return True if the method is diagonally implicit. The conditions are that a_ij = 0 for j > i, and that
+    at least one a_ii is not zero. Here a_ij are the entries of the matrix ``A`` of the method.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -57,8 +61,10 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j for all i and j (HLW Theorem
-    VI.4.3).
+    """Return True if the method is symplectic (HLW Theorem VI.4.3).
+
+    The condition for all i and j is: b_i a_ij + b_j a_ji = b_i b_j. Here a_ij and b_i are the entries of
+    ``A`` and ``b``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -74,8 +80,8 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
     """Return True if a partitioned method is symplectic for separable Hamiltonians H = T(p) + V(q).
 
-    The condition is b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j, where ahat_ij and bhat_j are the
-    entries of ``A_hat`` and ``b_hat`` (HLW Theorem VI.4.6).
+    The condition for all i and j is: b_i ahat_ij + bhat_j a_ji = b_i bhat_j (HLW Theorem VI.4.6). Here a_ij,
+    b_i, ahat_ij and bhat_i are the entries of ``A``, ``b``, ``A_hat`` and ``b_hat``.
 
     >>> from orderconds.ring import QQ
     >>> half, one = QQ.rational(1, 2), QQ.one
@@ -91,10 +97,11 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method with s stages is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
+    """Return True if the method is symmetric (HLW Theorem V.2.3).
 
-    The stages are compared in the given order. A method that is symmetric only after a permutation of its
-    stages is not recognised.
+    The condition for all i and j is: a_{s+1-i,s+1-j} + a_ij = b_j. Here s is the number of stages, and a_ij
+    and b_j are the entries of ``A`` and ``b``. The stages are not reordered. If a method satisfies the
+    condition only for another order of its stages, the result is not True.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -107,7 +114,7 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is stiffly accurate: a_sj = b_j for all j, where s is the number of stages.
+    """Return True if the method is stiffly accurate: the last row of ``A`` is equal to ``b``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -140,7 +147,7 @@ DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
 }
 
 PROPERTIES = (*DEFINITIONS, "low_storage", "a_stable", "l_stable")
-"""All properties that a tableau file may claim."""
+"""The names of all properties that the table ``claims`` of a tableau file may contain."""
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
@@ -157,10 +164,11 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    For i = 1, ..., s, a composition of s pairs applies the adjoint of a basic method with the step size
-    beta_i h, and then the basic method with the step size alpha_i h. The composition is symmetric if
-    alpha_{s+1-i} = beta_i for all i. A splitting is symmetric if the list of its flows is a palindrome. For
-    Magnus methods, see :mod:`orderconds.tableau.reversal`.
+    - A composition has s pairs of substeps. Pair i first applies the adjoint of a basic method with the step
+      size beta_i h. It then applies the basic method itself with the step size alpha_i h. The composition is
+      symmetric if alpha_{s+1-i} = beta_i for all i.
+    - A splitting is a list of flows with step sizes. It is symmetric if the reversed list is the same.
+    - For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
