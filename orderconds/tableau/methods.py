@@ -1,8 +1,8 @@
 """The coefficients of a method as immutable data over one ring, and conversions between formats.
 
-In this module, stages are counted from 0. In files, stages are counted from 1. In a product of exponentials,
-the first row is the rightmost factor, which acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric
-Numerical Integration*.
+In this module, stages are counted from 0. In files, stages are counted from 1. A product of
+exponentials is stored as a sequence of rows. The first row belongs to the rightmost factor, which acts first.
+HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ class RungeKutta:
         return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
 
     def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
-        """Return the Crouch-Grossman method of the tableau, with one exponential for each non-zero a_ij.
+        """Return the Crouch-Grossman method with the coefficients of this tableau.
 
-        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. In the
-        update, b_j replaces a_ij (HLW IV.8.3, (1.4)). An exponential is omitted only if its coefficient is
-        provably zero.
+        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. The
+        update has the same form, with b_j in place of a_ij (HLW IV.8.3, (1.4)). An exponential is omitted if
+        its coefficient is provably zero.
         """
 
         def product(row: Row) -> Stage:
@@ -86,17 +86,18 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the Runge-Kutta method (A, b), which the partitioned method applies to y. For a system
-        y' = f(y) without variables z, both methods are the same."""
+        """Return the Runge-Kutta method (A, b), which computes y. For a system y' = f(y) without variables z,
+        the partitioned method is equal to this Runge-Kutta method."""
         return RungeKutta(self.A, self.b)
 
 
 @dataclass(frozen=True)
 class Stage:
-    """A product of exponentials that acts on stage ``start``, or on y0 if ``start`` is None.
+    """A product of exponentials that acts on y0 or on the value of a stage.
 
-    ``exponentials`` contains one row for each exponential. A row beta has one entry for each stage j, and
-    denotes exp(h sum_j beta_j k_j). Here k_j is the vector field at stage j. The first row acts first.
+    ``start`` is the index of the stage, or None for y0. ``exponentials`` contains one row of coefficients for
+    each exponential. The row beta belongs to exp(h sum_j beta_j k_j), where h is the step size and k_j is the
+    vector field at stage j. The exponential of the first row acts first.
     """
 
     start: int | None
@@ -129,10 +130,12 @@ class CommutatorFree:
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Return True if the product ``other`` provably equals the update for all vector fields.
+        """Return True if the product ``other`` provably equals the update of this method for all vector
+        fields.
 
-        Both products are first reduced (:func:`_reduced`). Two reduced products are equal for all vector
-        fields only if their exponents are equal (Chen 1958, on piecewise linear paths).
+        The function simplifies both products (:func:`_reduced`) and compares their exponents. Simplified
+        products with different exponents have different values for some vector fields (Chen 1958, on
+        piecewise linear paths).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -175,7 +178,7 @@ class Composition:
     """A composition of steps of one basic method with the step sizes gamma_1 h, ..., gamma_s h. The step of
     size gamma_1 h is applied first.
 
-    ``base`` is always ``"symmetric-2"``: the basic method may be any symmetric method of order 2. For the
+    The basic method may be any symmetric method of order 2, so ``base`` is always ``"symmetric-2"``. In the
     conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 
@@ -207,7 +210,8 @@ class Composition:
 
 @dataclass(frozen=True)
 class Embedded:
-    """A second row of weights, of order ``order``, for an estimate of the local error."""
+    """A second row of weights for an estimate of the local error. With these weights, the method has order
+    ``order``."""
 
     b: Row
     order: int
@@ -219,7 +223,8 @@ class Embedded:
 
 @dataclass(frozen=True)
 class EmbeddedUpdate:
-    """A second update of a commutator-free method. It uses the same stages and has order ``order``."""
+    """A second update of a commutator-free method, for an estimate of the local error. With this update, the
+    method has order ``order``."""
 
     update: Stage
     order: int

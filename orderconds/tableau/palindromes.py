@@ -5,9 +5,11 @@ maps y1 back to y0. The exponent of each exponential has s coefficients, one for
 exponential, the coefficients of stages j and s + 1 - j are exchanged, for each j. The method is symmetric if
 two conditions hold:
 
-- The conjugate exponentials of the update are the exponentials of the update in reverse sequence.
-- For each i, consider the exponentials that lead from y0 to the value of stage i. Their
-  conjugates, with exponents multiplied by -1, lead from y1 to the value of stage s + 1 - i.
+- The update is a sequence of exponentials. If each exponential is replaced by its conjugate, the result is
+  the same sequence, read backwards.
+- For each i, consider the exponentials that lead from y0 to the value of stage i. If each exponential is
+  replaced by its conjugate, and all exponents are multiplied by -1, the new exponentials lead from y1 to the
+  value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -24,8 +26,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    The stages are compared in the given order. A method that is symmetric only after a permutation of its
-    stages is not recognised.
+    In a method with s stages, stage i is compared with stage s + 1 - i. A method that is symmetric only after
+    a permutation of its stages is not recognised.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

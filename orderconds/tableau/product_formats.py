@@ -30,10 +30,13 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "composition"``: a composition of basic steps. The file contains either gamma, or
-    alpha and beta. The numbers gamma_i h are the step sizes of a symmetric basic method of order 2. The
-    numbers alpha_i h are the step sizes of any basic method, and beta_i h are the step sizes of its
-    adjoint."""
+    """The format ``family = "composition"``: a composition of basic steps. The file contains either the
+    key gamma, or the keys alpha and beta.
+
+    With gamma, all steps use one symmetric method of order 2, and the step sizes are gamma_i h. With alpha
+    and beta, steps of a basic method alternate with steps of its adjoint. The basic method has the step sizes
+    alpha_i h, and its adjoint has the step sizes beta_i h.
+    """
 
     base: Literal["symmetric-2", "adjoint-pair"]
     gamma: list[Coefficient] | None = None
@@ -88,17 +91,20 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows. A vector field is split into a sum of vector
-    fields, the parts. Each flow is the flow of one part. ``parts`` contains the names of the parts. If there
-    are two parts T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
+    """The format ``family = "splitting"``: a product of flows. A vector field is the sum of several vector
+    fields, which are called parts. Each factor of the product is the flow of one part.
+
+    ``parts`` contains the names of the parts. The optional key ``rkn`` is used for two parts T and V whose
+    Lie brackets satisfy [V,[V,[V,T]]] = 0. The value of ``rkn`` is the name of V.
+    """
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
     rkn: str | None = None
 
     def verify(self, where: str) -> None:
-        """Check that the names of the parts are different, and that the steps and ``rkn`` refer to these
-        names."""
+        """Check that the parts have different names, and that each step contains the name of a part. The key
+        ``rkn`` requires two parts, and its value must be the name of one part."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -140,8 +146,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     terms, such as nodes or brackets of nodes, and the values are the coefficients of the terms. Nodes are
     counted from 1.
 
-    ``elements`` defines named Lie elements. The exponents, and elements that are defined later, may
-    contain these names. ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
+    ``elements`` defines named Lie elements. A name may be used in every exponent, and in elements that
+    are defined later. ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
     """
 
     c: list[Coefficient]
@@ -156,8 +162,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that every term is a node, an earlier element, or a bracket of nodes and earlier elements.
-        Products of terms are allowed only if the map is ``cay``."""
+        """Check the terms in all tables. A term is a node, the name of an earlier element, or a bracket of
+        two terms. If the map is ``cay``, a term may also be a product of terms."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -204,15 +210,16 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield the nodes, then the coefficients of the elements and the exponents."""
+        """Yield all coefficients with their positions in the file. The sequence is: nodes, elements,
+        exponents."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
             for key, coefficient in table.items():
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
-        algebra of some quadratic groups."""
+        """Return the method. If terms are products, each exponent must lie in the Lie algebra of every
+        quadratic group. Raises TableauError if an exponent does not satisfy this condition."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()

@@ -1,7 +1,7 @@
-"""Splittings, compositions and Magnus methods: products of flows or of exponentials of Lie elements.
+"""Splittings, compositions and Magnus methods.
 
-Each product is stored as a sequence in which the first factor acts first. HLW denotes Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*.
+Each of these methods is a product of maps. The product is stored as a sequence in which the first factor acts
+first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ class Splitting:
     """A splitting method: a product of flows of the parts of a vector field. An entry (k, x) of ``steps`` is
     the flow of part k over the time x h, where h is the step size.
 
-    ``parts`` contains the names of the parts. For two parts T and V with [V,[V,[V,T]]] = 0
-    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``. For all other splittings, ``rkn`` is None.
+    ``parts`` contains the names of the parts. For a Runge-Kutta-Nystroem splitting, ``rkn`` is the index of V
+    in ``parts``. Such a splitting has two parts T and V whose Lie brackets satisfy [V,[V,[V,T]]] = 0. For all
+    other splittings, ``rkn`` is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -78,17 +79,18 @@ class AdjointComposition:
         """Return the Runge-Kutta tableau of the composition in which Phi is the explicit Euler method and
         Phi* is the implicit Euler method.
 
-        Each pair Phi_{alpha_i h} Phi*_{beta_i h} evaluates the vector field at only one point, which is stage
-        i. Hence b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
+        In each pair Phi_{alpha_i h} Phi*_{beta_i h}, both Euler steps evaluate the vector field at the same
+        point. This point is stage i. Hence b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i
+        (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the composition as a splitting into two parts 0 and 1. In this splitting, the basic method
-        Phi is the flow of part 0, followed by the flow of part 1. Its adjoint Phi* is the flow of part 1,
-        followed by the flow of part 0.
+        """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. For the
+        conversion, the basic method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi*
+        is the flow of B, followed by the flow of A.
 
         Neighbouring flows of the same part are combined. The splitting has the same order as the composition
         (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
@@ -103,8 +105,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""The exponents of a Magnus method are expanded only if the expansion has at most this number of products of
-the A_i."""
+"""The exponents of a Magnus method are expanded into products of the A_i only if the estimated number of
+products is at most this number."""
 
 
 @dataclass(frozen=True)
@@ -114,8 +116,8 @@ class Magnus:
     Cayley transform, products of the A_i are also allowed.
 
     The exponential of the first entry of ``exponents`` acts first. ``elements`` contains pairs of a name and
-    a Lie element. The exponents, and elements that are defined later, may refer to a Lie element by its
-    name. ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
+    a Lie element. A name may be used in every exponent, and in elements that are defined later.
+    ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -146,9 +148,11 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Expand each exponent into products of the A_i. Return one dictionary for each exponent. A key is a
-        tuple of nodes, counted from 0. For example, (i, j) denotes the product A_j A_i. The value is the
-        coefficient of the product."""
+        """Expand each exponent into a sum of products of the A_i. Return one dictionary for each exponent.
+
+        The dictionary maps each product to its coefficient. A key is a tuple of node indices, counted from 0.
+        For example, (i, j) denotes the product A_j A_i.
+        """
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
             named[name] = expand(combination, named, ring)
@@ -161,14 +165,15 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. With more
-        products, :meth:`words` would be too slow."""
+        """Return True if :meth:`words` is fast enough for this method. The number of products of the A_i is
+        estimated from the greatest number of factors in each exponent. The estimate must be at most
+        :data:`MOST_WORDS`."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent is a linear combination of the A_i. Brackets that cancel are ignored.
-        Return False in all other cases, also if the exponents cannot be expanded (:meth:`is_expandable`)."""
+        """Return True if every exponent expands to a linear combination of the A_i. Brackets are allowed if
+        they cancel in the expansion. Return False if the expansion is too long (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

@@ -1,7 +1,7 @@
 """Properties of a tableau, computed from its coefficients.
 
-Each property is True, False, or None if undecided. For example, a property is undecided if the coefficients
-are balls (intervals) that are too wide.
+The value of a property is True or False, or None if the property is undecided. For example, a property is
+undecided if the coefficients are balls (intervals) that are too wide.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     why there is no such scheme. Return None for a method that is neither a Runge-Kutta nor a commutator-free
     method.
 
-    For rounded decimals, it may be undecided whether the method equals the scheme. If the file has a table
-    ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals. Equality
-    for random numbers proves equality for all decimals, except with negligible probability
-    (:mod:`orderconds.tableau.random_member`).
+    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. If the file has a
+    table ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals. If
+    the method and the scheme are equal for the random numbers, they are regarded as equal for all values of
+    the decimals. The probability of an error is negligible (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -109,10 +109,10 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for all values of its rounded decimals. The test uses random
-    numbers in place of the decimals. The result is None if the method with random numbers is not symmetric,
-    because the exact coefficients may still be symmetric. It is also None if the test is impossible, for
-    example without a table ``[proof]``."""
+    """Return True if the method is symmetric for all values of its rounded decimals, and None if this is
+    unknown. The test uses random numbers in place of the decimals. If the test fails, the method may still be
+    symmetric for the exact coefficients, so the result is never False. The test requires a table
+    ``[proof]``."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

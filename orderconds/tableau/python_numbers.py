@@ -2,8 +2,8 @@
 numbers, and rows of such numbers are accepted.
 
 A float is converted to the text of a double (:mod:`orderconds.tableau.doubles`). A text must satisfy the
-grammar of tableau files. Error messages name the wrong entry, such as ``A[2][1]``. Its indices are counted
-from 1.
+grammar of tableau files. Error messages contain the position of a wrong entry, such as ``A[2][1]``.
+Rows and columns are counted from 1.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of less than 64 bits becomes an exact number if its denominator is small, and a rounded
-    decimal (``~``) otherwise. Raises TableauError for complex numbers, infinities, NaN, truth values and
-    objects that are not numbers.
+    A NumPy float of less than 64 bits becomes an exact number if its denominator is at most :data:`SMALL`.
+    Otherwise the float becomes a rounded decimal, which ends with ``~``. Raises TableauError for complex
+    numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -88,9 +88,9 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a floating-point number of less than 64 bits to a coefficient. The coefficient is exact if its
-    denominator is small. If the denominator is large, the coefficient is a decimal with ``digits``
-    significant digits."""
+    """Convert a floating-point number of less than 64 bits to a coefficient. If the number
+    is a fraction with denominator at most :data:`SMALL`, the coefficient is exact. Otherwise the coefficient
+    is a decimal with ``digits`` significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

@@ -1,13 +1,13 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
-If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. Suppose that two rational functions of degree at most D are different. Consider a random point,
-each coordinate of which is drawn from 2^128 numbers. The two functions have the same value at this point with
-probability at most D / 2^128 (Schwartz 1980; Zippel 1979).
+An identity between two rational functions is tested at one random point. Each coordinate of the point is
+drawn from 2^128 numbers. If the two functions are different and have degree at most D, they have the same
+value at the point with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). Hence a false identity
+passes the test only with negligible probability.
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
-changes all random numbers. Hence nobody can choose the random numbers first and then construct a file for
-which a test of an identity gives a wrong result. The arithmetic is exact, with rational numbers.
+changes all random numbers. Hence nobody can fit the coefficients of a file to known random numbers, so that a
+false identity passes the test. All computations use exact rational numbers.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ wrong result with probability at most D / 2^128. The limit :data:`orderconds.tab
 size of intermediate values keeps D far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""Errors that are raised if a random method cannot be evaluated: numbers grow too large, or a divisor is
-zero."""
+"""The errors that are raised if a random method cannot be evaluated. For example, a number is too large or a
+divisor is zero."""
 
 
 class RandomMember(Rationals):

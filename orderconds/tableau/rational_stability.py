@@ -1,7 +1,7 @@
-"""A- and L-stability for rational coefficients, with polynomials and certified roots of the Flint library.
+"""Tests of A- and L-stability for methods with rational coefficients.
 
-The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation with the Flint library is
-fast enough for methods with a hundred stages.
+The tests use polynomials and certified roots of the Flint library. The criteria are those of
+:mod:`orderconds.tableau.stability`. The tests are fast enough for methods with a hundred stages.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return two truth values: whether methods with the stability function P/Q are A-stable, and whether they
-    are L-stable. Return None if it cannot be decided whether all poles are right of the imaginary
-    axis.
+    """Return two truth values for a method with the stability function P/Q: whether the method is A-stable,
+    and whether it is L-stable. Return None if this is undecided, because a pole of P/Q may lie on the
+    imaginary axis.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

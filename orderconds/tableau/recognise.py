@@ -9,12 +9,12 @@ from orderconds.tableau.record import Tableau
 
 
 def as_composition(tableau: Tableau) -> Tableau | None:
-    """Return a tableau (A, b) as a composition of implicit midpoint steps of sizes b_i h. Return None if the
-    tableau is no composition of implicit midpoint steps.
+    """Return a Runge-Kutta method (A, b) as a composition of implicit midpoint steps of sizes b_i h. Return
+    None if the method is not such a composition.
 
     The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
-    Lemma 3.5.4). For rounded decimals, differences within their uncertainty are allowed in the first two
-    conditions.
+    Lemma 3.5.4). The first two conditions may contain rounded decimals. In this case, both sides must be
+    equal within the uncertainty of the decimals.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -1,4 +1,4 @@
-"""The class Tableau: the coefficients of a method, with their source and the claims of the file."""
+"""The class Tableau: the coefficients of a method, their source, and claims such as the order."""
 
 from __future__ import annotations
 
@@ -84,11 +84,12 @@ class Tableau:
         as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
         exact. All other floats have the uncertainty of a double.
 
-        - ``bhat``: s embedded weights, whose order is computed
+        - ``bhat``: the s weights of an embedded method (the order of this method is computed)
         - ``c``: the abscissae, which must equal the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
-        Raises :class:`~orderconds.errors.TableauError` for a wrong entry. The message contains its position.
+        Raises :class:`~orderconds.errors.TableauError` for a wrong entry. The message contains the position
+        of the entry.
 
         >>> Tableau.rk([[], [0.5]], [0, 1]).b
         (Fraction(0, 1), Fraction(1, 1))
@@ -117,7 +118,8 @@ from the table [numbers] (none)
         The first exponential of a list acts first. An exponential is a row of coefficients, one for each
         stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0. If
         the exponentials of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from
-        1. ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
+        1. ``embedded`` is a second update for an error estimate. Coefficients may have all types that
+        :meth:`rk` accepts.
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]
@@ -166,8 +168,8 @@ from the table [numbers] (none)
     def A(self) -> tuple[tuple[Value, ...], ...]:
         """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
         contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise. For a
-        commutator-free method, row i of A is the sum of the coefficients of all exponentials that lead from
-        y0 to stage i."""
+        commutator-free method, each exponential has a row of coefficients. Row i of A is the sum of these
+        rows for all exponentials that lead from y0 to stage i."""
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
@@ -182,15 +184,15 @@ from the table [numbers] (none)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights, of the same types as the entries of :attr:`A`. None if there is no embedded
-        method."""
+        """The embedded weights, of the same types as the entries of :attr:`A`. The value is None if there is
+        no embedded method."""
         lower = self.lower()
         return None if lower is None else lower.b
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension in the tableau file. None if the file has no extension, or if the tableau
-        is a copy with other coefficients."""
+        """The continuous extension in the tableau file. The value is None if the file has no extension, or if
+        the tableau is a copy with other coefficients."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -201,7 +203,7 @@ from the table [numbers] (none)
         """The computed orders, such as ``{"rk": 4, ...}``. The keys are the families to which the method
         belongs.
 
-        :func:`orderconds.check` also returns certificates and failing conditions.
+        Use :func:`orderconds.check` to obtain certificates and failing conditions.
         """
         orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.computed_orders").orders_of
         return orders_of(self)
@@ -232,7 +234,7 @@ from the table [numbers] (none)
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return a copy of the tableau with coefficients in ``ring``.
 
-        ``convert`` converts one coefficient to ``ring``. The default is the embedding of the present ring in
+        ``convert`` converts one coefficient to ``ring``. By default, the ring of this tableau is embedded in
         ``ring``. Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
@@ -262,12 +264,13 @@ from the table [numbers] (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
-        converted to one of the formats.
+        """Convert the method to one of the formats. If several conversions are possible, the first of these
+        formats in ``formats`` is used. Return None if no conversion is possible.
 
-        In the conversion of a composition to ``rk``, the implicit midpoint rule replaces a symmetric basic
-        method. The explicit and the implicit Euler method replace a basic method and its adjoint. A
-        composition of a basic method and its adjoint can also be converted to ``splitting``.
+        A composition of symmetric steps is converted to ``rk`` with the implicit midpoint rule as the basic
+        method. A composition of a basic method and its adjoint is converted to ``rk`` with the explicit Euler
+        method as the basic method. The adjoint is then the implicit Euler method. Such a composition can also
+        be converted to ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -365,8 +368,8 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Import a module of a higher layer. A few methods of :class:`Tableau` need such modules, and an import
-    at the top of this file would be circular."""
+    """Import the module ``orderconds.<module>`` at the time of the call. An import at the top of this file
+    would be circular."""
     return import_module(f"orderconds.{module}")
 
 
