@@ -61,7 +61,7 @@ def orbit_is_open(problem: Problem) -> bool:
     return field.group.dim >= len(start) and len(_tangent(field, start)) == len(start)
 
 
-def _tangent(field: Problem, start: Sequence[float]) -> list[list[float]]:
+def _tangent(field: Problem, start: tuple[float, ...]) -> list[list[float]]:
     """Return an orthonormal basis of the tangent space of the orbit at ``start``."""
     n, d = field.group.dim, FloatDomain(0.0)
     units = [tuple(float(i == j) for j in range(n)) for i in range(n)]
