@@ -7,7 +7,7 @@ import gc
 import pytest
 from hypothesis import settings
 
-# A run tells of the code, not of the machine's load or of luck: no deadlines, the same examples every time.
+# The result depends on the code only: there are no deadlines, and every run tests the same examples.
 settings.register_profile("orderconds", deadline=None, derandomize=True)
 settings.load_profile("orderconds")
 
@@ -16,8 +16,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update", action="store_true", help="rewrite the golden files")
 
 
-# The collected tests and the imported modules are millions of objects that live until the end of the run. The
-# garbage collector would visit them again and again, which takes a tenth of the time of all tests.
+# The collected tests and the imported modules are almost a million objects. They live until the end of the
+# run. The garbage collector would visit them again and again. This takes a tenth of the time of all tests.
 gc.disable()
 
 

@@ -209,8 +209,8 @@ class Start:
     # halvings the step size would be 2^-100 h.
     TRIES: ClassVar[int] = 100
     # The step size grows by a factor of at most 4. If the loops do not converge for a larger step size, the
-    # factor is replaced by its square root. After nine successive failures the factor is at most 4^(1/2^9),
-    # which is less than 1 + 2^-8.
+    # factor is replaced by its square root. After nine successive failures the factor is at most 4^(1/2^9).
+    # This number is less than 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 

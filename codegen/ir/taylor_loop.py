@@ -251,8 +251,8 @@ class _Loop:
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # In the recurrence of p = a^e, the product a_j p_{n-j} has the factor (e j - (n - j))/n. This
-                # factor equals (e + 1) j/n minus 1, so two sums are formed. The first sum contains j a_j,
-                # which is coefficient j of ``slope``.
+                # factor equals (e + 1) j/n minus 1, so two sums are formed. The first sum contains j a_j, and
+                # j a_j is coefficient j of ``slope``.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest

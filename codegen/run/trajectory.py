@@ -98,8 +98,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # Whether the caller has passed a stride and an array is tested only once, before the loop. The
-            # loop tests only the flag ``recording``.
+            # States are recorded if the caller has passed a stride and an array. This is tested once, before
+            # the loop. The loop tests only the flag ``recording``.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),

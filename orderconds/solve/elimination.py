@@ -114,6 +114,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
+        nonzero = _nonzero(problem, ring)
     except (
         AttributeError,
         ArithmeticError,
@@ -124,7 +125,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
     for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
-        contradiction = _consequence(problem, variables, [x for _, x in members], plain)
+        contradiction = _consequence(nonzero, variables, [x for _, x in members], plain)
         if contradiction is not None:
             certificate = _certificate(variables, members, *contradiction, plain)
             if certificate is not None:
@@ -134,6 +135,22 @@ def infeasible(problem: Problem) -> Infeasible | None:
 
 def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
     return tuple(c for n in range(1, min(problem.order, MAX_ORDER) + 1) for c in problem.family.conditions(n))
+
+
+def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozenset[str]:
+    """Return the names of the free coefficients that cannot be zero.
+
+    These are the weights by which the formulas of the family divide. A coefficient of an exponential of a
+    commutator-free method is not a weight, because a weight is the sum of several of these coefficients.
+    """
+    if not problem.family.needs_nonzero_weights:
+        return frozenset()
+    weights = problem.weights(ring.generators, cast("RootedRing", ring))
+    return frozenset(
+        name
+        for name, x in zip(ring.names, ring.generators, strict=True)
+        if any(ring.is_zero(w - x) for w in weights)
+    )
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
@@ -160,7 +177,7 @@ def _subsystems(
 
 
 def _consequence(
-    problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
+    nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
     """Return a polynomial in the ideal that ``members`` generate, and a text. Return None if no suitable
     polynomial is found.
@@ -184,7 +201,7 @@ def _consequence(
             (symbol,) = free
             weight = ""
             univariate = sympy.Poly(polynomial.as_expr(), symbol)
-            while problem.family.needs_nonzero_weights and symbol.name[0] == "b" and not univariate.eval(0):
+            while symbol.name in nonzero and not univariate.eval(0):
                 univariate = sympy.div(univariate, sympy.Poly(symbol, symbol))[0]
                 weight = symbol.name
             if univariate.count_roots() == 0:

@@ -106,18 +106,24 @@ class Problem:
             method = self._read(method, ring)
         return Tape(self.measured.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
 
+    def weights(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
+        """Return the weights b_i. ``values`` contains the free coefficients as elements of ``ring``.
+
+        The weights of a commutator-free method are those of the Runge-Kutta tableau to which the method
+        reduces on an abelian group. For compositions and splittings, the list is empty.
+        """
+        return list(_weights(self.ansatz.method(values, ring), ring))
+
     @cached_property
     def coefficients(self) -> Tape:
         """Return a program that evaluates coefficients and weights.
 
-        The first outputs are the coefficients that are not constants. The remaining outputs are all weights
-        b_i. The weights of a commutator-free method are those of the Runge-Kutta tableau to which the method
-        reduces on an abelian group. For compositions and splittings, the program evaluates no weights.
+        The first outputs are the coefficients that are not constants. The remaining outputs are the
+        :meth:`weights`.
         """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
-        weights = _weights(self.ansatz.method(ring.inputs, ring), ring)
-        return Tape([*cells, *weights], len(self.ansatz.free))
+        return Tape([*cells, *self.weights(ring.inputs, ring)], len(self.ansatz.free))
 
     @cached_property
     def positive(self) -> tuple[int, ...]:

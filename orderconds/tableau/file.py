@@ -157,8 +157,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``,
-    # which is usually the path of the file.
+    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``.
+    # This is usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise

@@ -6,7 +6,7 @@ import pytest
 import sympy
 
 from orderconds.ring.polynomials import Polynomials
-from orderconds.solve.elimination import _certificate, _consequence, infeasible
+from orderconds.solve.elimination import _certificate, _consequence, _nonzero, infeasible
 from orderconds.solve.problem import find_problem
 from orderconds.solve.spec import Spec
 
@@ -64,7 +64,8 @@ def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> N
     k = plain.names.index("b1")
     b1 = plain.generators[k]
     member = b1 * (b1 * b1 + plain.one)
-    found = _consequence(problem, [k], [member], plain)
+    assert _nonzero(problem, plain) == {"b1", "b2"}
+    found = _consequence(_nonzero(problem, plain), [k], [member], plain)
     assert found is not None
     consequence, weight = found
     assert (plain.text(consequence), weight) == ("b1^3 + b1", "b1")
@@ -81,4 +82,17 @@ def test_a_weight_zero_is_a_root_where_no_formula_divides_by_it() -> None:
     plain = Polynomials(problem.ansatz.free)
     k = plain.names.index("b1")
     b1 = plain.generators[k]
-    assert _consequence(problem, [k], [b1 * (b1 * b1 + plain.one)], plain) is None
+    assert _nonzero(problem, plain) == frozenset()
+    assert _consequence(frozenset(), [k], [b1 * (b1 * b1 + plain.one)], plain) is None
+
+
+@pytest.mark.parametrize(
+    ("exponentials", "structure", "expected"),
+    [(1, "full", {"b1_1", "b1_2"}), (2, "full", set()), (2, "symmetric", set())],
+)
+def test_a_coefficient_of_one_of_two_exponentials_is_no_weight(
+    exponentials: int, structure: str, expected: set[str]
+) -> None:
+    """A commutator-free method may have such a coefficient zero, because the weight is a sum."""
+    problem = find_problem("vcf", 2, Spec(2, exponentials=exponentials), structure)
+    assert _nonzero(problem, Polynomials(problem.ansatz.free)) == expected
