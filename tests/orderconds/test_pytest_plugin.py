@@ -31,8 +31,10 @@ def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> 
 
     def inside(folder: Path, *flags: str, target: str = ".") -> tuple[int, str]:
         capsys.readouterr()
-        without = ["--capture=no", "-p", "no:xdist", "-p", "no:hypothesispytest"]
-        status = pytest.main([*without, *arguments(folder, *flags, target=target)])
+        # At its end, the plugin unraisableexception collects the garbage of this large process five times.
+        without = [f"no:{name}" for name in ("xdist", "hypothesispytest", "unraisableexception")]
+        options = ["--capture=no", *(part for name in without for part in ("-p", name))]
+        status = pytest.main([*options, *arguments(folder, *flags, target=target)])
         return int(status), "".join(capsys.readouterr())
 
     return inside
