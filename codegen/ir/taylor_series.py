@@ -1,14 +1,14 @@
 """Taylor series in time, with one class for each operation or function. Each class contains the recurrence
 that computes the coefficients of the series.
 
-The sum of two series is computed term by term, and a product by Cauchy's convolution. The recurrence of each
-other function follows from an algebraic or differential equation for the result (R. E. Moore, *Interval
-Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The
-coefficients are scalars of a domain (:mod:`codegen.ir.domain`). If they are expressions, the recurrences
-become straight-line code.
+The sum of two series is computed term by term. A product is computed by Cauchy's convolution. The recurrence
+of each other function follows from an algebraic or differential equation for the result (R. E. Moore,
+*Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2).
+The coefficients are scalars of a domain (:mod:`codegen.ir.domain`). For a domain of expressions, the
+recurrences become straight-line code.
 
-In all formulas a_n is coefficient n of the series a. A coefficient that is zero for all states is represented
-by None, and products with it are not computed.
+In all formulas a_n is coefficient n of the series a, and a prime denotes the derivative with respect to time.
+The value None represents a coefficient that is identically zero. Products with None are not computed.
 """
 
 from __future__ import annotations
@@ -27,13 +27,11 @@ from codegen.ir.selection import CHOOSE
 from codegen.ir.table import PiecewisePolynomial
 
 Coefficient: TypeAlias = Scalar
-"""A scalar, or None for a coefficient that is zero for all states."""
+"""A scalar, or None for a coefficient that is identically zero."""
 
 
 class Series(ABC):
-    """The Taylor series in time of one expression. ``terms`` contains the coefficients that are known so
-    far.
-    """
+    """The Taylor series in time of one expression. ``terms`` contains its computed coefficients."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -43,19 +41,19 @@ class Series(ABC):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of this series.
 
-        All lower coefficients of this series, and the coefficients 0, ..., n of the arguments, must be known.
+        The coefficients 0, ..., n - 1 of this series must be in ``terms``.
         """
 
     def term(self, n: int) -> Coefficient:
-        """Return coefficient n of this series. It is computed if it is not known yet."""
-        # A recurrence uses all lower coefficients, so the coefficients are computed in the order 0, 1, 2, ...
+        """Return coefficient n of this series. All missing coefficients up to n are computed."""
+        # A recurrence uses all lower coefficients. The order is therefore 0, 1, 2, ...
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
 
 
 class Given(Series):
-    """A series with given coefficients: a constant, the time, or a coordinate."""
+    """The series of a constant, of the time, or of a coordinate. Its coefficients are given."""
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -63,12 +61,10 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, because all coefficients that are not given are zero. If ``closed`` is false,
-        coefficient n must have been appended before it is requested.
-        """
-        # A series that is not closed belongs to a coordinate. Its coefficients follow from the differential
-        # equation and are appended one by one.
-        assert self.closed, f"coefficient {n} is not known yet"
+        """Return None, since ``terms`` contains all nonzero coefficients. ``closed`` must be true."""
+        # If ``closed`` is false, this is the series of a coordinate. The coefficients of a coordinate follow
+        # from the differential equation, and are appended one by one.
+        assert self.closed, f"coefficient {n} is unknown"
         return None
 
 
@@ -160,7 +156,7 @@ class Power(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the power p = a^e.
 
-        For n > 0 it is the sum of (e j - (n - j)) a_j p_{n-j}/(n a_0) over 0 < j <= n.
+        For n > 0 it is 1/(n a_0) times the sum of (e j - (n - j)) a_j p_{n-j} over 0 < j <= n.
         """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
@@ -201,7 +197,7 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The series with the coefficients n a_n. It is s a'(s) if the series a(s) is the sum of a_n s^n."""
+    """The series s a', where s is the time from the beginning of the step. Its coefficients are n a_n."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -233,7 +229,7 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # The recurrence follows from a l' = a', where l is the logarithm. ``slope`` has the coefficients
+        # The recurrence follows from a l' = a', where l is the logarithm. The coefficients of ``slope`` are
         # j l_j.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
@@ -241,7 +237,7 @@ class Logarithm(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of l = log(a).
 
-        For n > 0 it is (a_n - z/n)/a_0, where z is the sum of j l_j a_{n-j} over 0 < j < n.
+        Let z be the sum of j l_j a_{n-j} over 0 < j < n. For n > 0, coefficient n is (a_n - z/n)/a_0.
         """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
@@ -254,8 +250,8 @@ class Logarithm(Series):
 class Antiderivative(Series):
     """The series f(a) for a function f with a simple derivative, such as tan or atan.
 
-    The coefficients follow from the differential equation f(a)' = r a'. The series r = f'(a) is the attribute
-    ``rate``. ``slope`` is the :class:`Slope` of a.
+    The coefficients of b = f(a) follow from the differential equation b' = r a'. The series r is ``rate``. It
+    is the derivative of f at a. ``slope`` is the :class:`Slope` of a.
     """
 
     rate: Series
@@ -265,11 +261,14 @@ class Antiderivative(Series):
         self.name, self.a, self.slope = name, a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
+        """Return coefficient n of f(a).
+
+        Let r be ``rate``. For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over 0 < j <= n.
+        """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The sum contains only coefficients of ``rate`` below n. Therefore ``rate`` may depend on f(a), as in
-        # tan' = 1 + tan^2.
+        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``. They may therefore depend on the
+        # lower coefficients of f(a). An example is the derivative 1 + tan(a)^2 of the tangent.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -289,8 +288,8 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the sine or the cosine.
 
-        Let o_k be the coefficients of ``other``. For n > 0, the coefficient of the sine is the sum of
-        j a_j o_{n-j}/n over 0 < j <= n. For the cosine, the sign of the sum changes.
+        Let o_k be the coefficients of ``other``, and let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For
+        n > 0, coefficient n of the sine is z, and coefficient n of the cosine is -z.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -300,12 +299,12 @@ class Circular(Series):
 
 
 class Angle(Series):
-    """The polar angle of the point (x, y). Its derivative is (x/r) y' - (y/r) x', where r = x^2 + y^2."""
+    """The polar angle of the point (x, y). The derivative of the angle is (x y' - y x')/(x^2 + y^2)."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
-        # ``size`` is x^2 + y^2. ``rates`` are the quotients of x and ``size``, and of y and ``size``.
+        # ``size`` is x^2 + y^2. ``rates`` are the quotients x/``size`` and y/``size``.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
@@ -313,13 +312,12 @@ class Angle(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the angle.
 
-        For n > 0 it is the sum of j (y_j p_{n-j} - x_j q_{n-j})/n over 0 < j <= n. Here p is x/r, q is y/r,
-        and r is x^2 + y^2.
+        Let p = x/(x^2 + y^2) and q = y/(x^2 + y^2). For n > 0, coefficient n is the sum of
+        j (y_j p_{n-j} - x_j q_{n-j})/n over 0 < j <= n.
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # Coefficient 0 of a series in ``slopes`` is zero. Hence the sums do not contain coefficient n of the
-        # series in ``rates``.
+        # The first mean is the sum of j y_j p_{n-j}/n. The second mean is the sum of j x_j q_{n-j}/n.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -361,15 +359,15 @@ class Start(Series):
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of f(a), where f is the piecewise polynomial ``table``.
 
-    One interval of the table contains a_0. All coefficients are computed with the polynomial of this
-    interval.
+    Let a_0 be the value of a at the beginning of the step. All coefficients are computed with the polynomial
+    of the interval that contains a_0.
     """
-    # On one interval f is a polynomial. Hence the Taylor formula f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k has
-    # finitely many terms. Horner's rule computes this sum.
+    # On one interval of the table, f is a polynomial. Its Taylor formula at a_0 has therefore finitely many
+    # terms. The term of order k is (a - a_0)^k/k! times the derivative of order k at a_0.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
-    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
-    # constant.
+    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The loop ends at a constant
+    # derivative.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -378,7 +376,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
         start = Start(domain, a, partial(domain.call, derivative))
         number = Number.rational(*factor.as_integer_ratio())
         starts.append(start if number.is_one else Multiple(domain, number, start))
-    # Horner's rule begins with the highest derivative.
+    # The sum is computed by Horner's rule, beginning with the highest derivative.
     total: Series = starts[-1]
     for constant in reversed(starts[:-1]):
         total = Sum(domain, constant, Convolution(domain, step, total), False)
@@ -387,8 +385,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
     """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
-    # For a = b the products a_j a_{n-j} and a_{n-j} a_j are equal, so about half of the products are
-    # sufficient.
+    # For a = b the products a_j a_{n-j} and a_{n-j} a_j are equal. Each of them is computed only once.
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
@@ -398,11 +395,10 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``. Equal products are computed only
     once.
     """
-    # The index j decreases, so n - j increases. Products of coefficients with high indices thus come later,
-    # as in :func:`_late_last`.
+    # The larger index n - j increases from term to term, as in :func:`_late_last`.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
-    # For even n, the product of the middle coefficient with itself occurs only once.
+    # For even n, the square of a_{n/2} occurs only once in the sum.
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
     return _add(twice, multiplied(middle, middle))
 
@@ -415,14 +411,13 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` j of the products a_j b_{n-j} by the larger of the two indices j and n - j."""
-    # The coefficients with the highest indices are computed last. If their products come last in the sum, the
-    # processor can compute all other products earlier. Python's sort is stable, so indices j with the same
-    # maximum remain in their order.
+    # The coefficients with the highest indices become known last. The sum therefore ends with their products.
+    # The processor can then compute all other products earlier.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
-    """Return the sum of ``terms``, added in the given order. An empty sum is None."""
+    """Return the sum of ``terms``. The terms are added in the given order. An empty sum is None."""
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)
@@ -438,7 +433,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return the product a b. None represents zero, so the result is None if a or b is None."""
+    """Return the product a b. If a or b is zero, which is represented by None, the result is None."""
     return None if a is None or b is None else a * b
 
 

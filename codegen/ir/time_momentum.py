@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The new value of the momentum u conjugate to the time, after a linear step from y to Y = (Q, P).
+    """The update of the momentum u conjugate to the time, after a linear step from y to Y = (Q, P).
 
-    The new value is u + (Q.P' - P.Q')/2. The prime denotes the derivative with respect to the time t for
-    fixed y and h. The operation has three arguments: the point (y, u) before the step, the point (Y, u), and
-    the time t. The result is Y with the new value of u. The program ``step`` computes Y from y and t, and
-    does not change u.
+    The vectors Q and P are the new positions and momenta. The new value of u is u + (Q.P' - P.Q')/2. The
+    prime denotes the derivative with respect to the time t for fixed y and fixed step size h. The arguments
+    are the point (y, u) before the step, the point (Y, u) and the time t. The result is the point Y with the
+    new value of u. The program ``step`` computes (Y, u) from (y, u) and t.
     """
 
     step: Program
@@ -36,8 +36,8 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point that consists of Y and the new momentum u + (Q.P' - P.Q')/2."""
         start, end, t = args
-        # If the point ``end`` consists of expressions, it is differentiated directly. Otherwise it consists
-        # of numbers, and :meth:`_evaluated` first computes it again as expressions.
+        # Only expressions can be differentiated. If ``end`` consists of numbers, :meth:`_evaluated` repeats
+        # the step with expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -45,13 +45,13 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increment (Q.P' - P.Q')/2 of the momentum u as a scalar of ``domain``."""
-        # The step is computed with symbols for y and t, because expressions can be differentiated. At the
-        # end, the scalars ``start`` and ``t`` replace the symbols.
+        # The step is computed and differentiated with symbols for y and t. The scalars in ``start`` and ``t``
+        # replace the symbols in the derivative.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # y and t are independent symbols, so the derivative of Y with respect to t is taken for fixed y.
+        # The symbols in ``point`` do not depend on t. Hence the derivative with respect to t is for fixed y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

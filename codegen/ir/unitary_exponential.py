@@ -1,14 +1,13 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
-where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. Its coefficients
-depend only on p and q. They are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q I.
-This method has no divisions, and is also accurate for equal eigenvalues (M. Luescher, SU(3) matrix functions,
-notes of openQCD).
+where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. The coefficients of I,
+H and H^2 depend only on p and q. Horner's rule computes these coefficients from the Taylor polynomial of the
+exponential, and replaces H^3 by p H + q I in each step. This method has no divisions, and is also accurate
+for equal eigenvalues (M. Luescher, SU(3) matrix functions, notes of openQCD).
 
-The Taylor polynomial is evaluated for H/2^s. The number s is chosen so that the bound 2 (p/3)^(1/2) of the
-eigenvalues of H/2^s is small. Afterwards the result is squared s times. The squares are computed as products
-of matrices.
+All eigenvalues of H are bounded by 2 (p/3)^(1/2) in absolute value. If this bound is large, the Taylor
+polynomial is evaluated for X/2^s instead of X. The matrix exp(X/2^s) is then squared s times.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
@@ -42,8 +41,8 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, and for exp X with many
-digits or for power series.
+"""The exponential of real 6 x 6 matrices. It computes the derivatives of exp X. If the coordinates of X are
+mpmath numbers or power series, it also computes exp X itself.
 """
 
 
@@ -76,12 +75,12 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the argument arrays. The only argument array contains the coordinates of X."""
+        """The lengths of the argument arrays. The only argument array contains the eight coordinates."""
         return (COORDINATES,)
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications for a polynomial of degree 12 without squarings."""
+        """The numbers of additions and multiplications for degree 12. The squarings are not counted."""
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -92,7 +91,8 @@ class SpecialUnitaryExponential(VectorFunction):
         zero = args[0].space.zero
         # ``embedded`` is linear. The derivative of the real matrix is therefore ``embedded(rates, zero)``.
         both = (*embedded(args, zero), *embedded(rates, zero))
-        # At level 1, the first half of the results is the exponential, and the second half is its derivative.
+        # The argument 1 requests the derivative of first order. The results are the entries of the
+        # exponential, followed by the entries of its derivative.
         general = MatrixExponential(2 * ROWS, 1)
         slopes = args[0].space.vector(general.name, both)
         return first_columns(slopes[GENERAL.size :])
@@ -109,7 +109,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return in_doubles(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for mpmath numbers."""
+        """Return the exponential in mpmath numbers of ``context``, correct to about ``digits`` digits."""
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -133,22 +133,19 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
 
     for (j, k), a, b in zip(PLACES, x[0:6:2], x[1:6:2], strict=True):
-        # X is skew-Hermitian: the entry (k, j) is minus the complex conjugate of the entry (j, k).
+        # X is skew-Hermitian. Hence the entry (k, j) of X is minus the complex conjugate of the entry (j, k).
         put(j, k, a, b)
         put(k, j, -a, b)  # type: ignore[operator]
-    # The diagonal of X is i times the diagonal of H, so its real part is zero.
+    # The diagonal entries of X are imaginary, because X is skew-Hermitian.
     for j, b in enumerate((x[6], x[7] - x[6], -x[7])):  # type: ignore[operator]
         put(j, j, zero, b)
     return tuple(result)
 
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
-    """Return the entries of A, then the entries of B.
-
-    The argument is the real matrix with the block rows (A, -B) and (B, A).
-    """
+    """Return the entries of A, then the entries of B, for a matrix with the block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
-    # The left half of the matrix contains A above B.
+    # The first ``ROWS`` columns contain the block A above the block B.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
@@ -161,8 +158,7 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
         total = _square(total)
-    # The test is true if the bound ``norm`` is still too large after the last halving. Because of the
-    # ``not``, it is also true if ``norm`` is a NaN.
+    # The results are NaN if ``norm`` is too large or NaN. A test ``norm > ...`` would not detect NaN.
     if not norm <= largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
@@ -171,10 +167,10 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 def _bound(x: Sequence[float]) -> float:
     """Return a bound of the absolute values of the eigenvalues of H.
 
-    The bound is 2 (p/3)^(1/2), where p = tr(H^2)/2. ``x`` are the coordinates of the matrix i H.
+    ``x`` are the coordinates of the matrix i H. The bound is 2 (p/3)^(1/2), where p = tr(H^2)/2.
     """
-    # The three eigenvalues of H are real, and satisfy x^3 = p x + q. By the trigonometric formula for the
-    # solutions, they are products of 2 (p/3)^(1/2) and a cosine.
+    # Each eigenvalue z of H is real, and satisfies z^3 = p z + q. By the trigonometric formula for cubic
+    # equations, z is 2 (p/3)^(1/2) times a cosine.
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
@@ -206,9 +202,9 @@ def determinant(x: Sequence[Any]) -> Any:
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
     # The determinant contains the product H_12 H_23 H_31 and its complex conjugate. Both have the real part
-    # ``product``, so their sum is twice ``product``.
+    # ``product``. Their sum is therefore twice ``product``.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # Let d_j be the diagonal entries of H. The sum of the other four terms of the determinant is
+    # All other terms of the determinant contain diagonal entries d_j of H. The sum of these terms is
     # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
@@ -217,16 +213,16 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    ``x`` are the coordinates of the matrix i H. For j < k, the entry (j, k) of H is b - i a, where a and b
-    are the two coordinates that belong to (j, k).
+    ``x`` are the coordinates of the matrix i H. For j < k, let a and b be the coefficients of E_jk - E_kj and
+    of i (E_jk + E_kj). The entry (j, k) of H is b - i a.
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
     # ``ab``, ``cd`` and ``ef`` are |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
-    # An entry of H^2 above the diagonal contains H_jk times the sum of two diagonal entries of H. The trace
-    # of H is zero, so this sum is minus the third diagonal entry.
+    # For j < k, the entry (j, k) of H^2 contains the term (H_jj + H_kk) H_jk. The trace of H is zero. Hence
+    # H_jj + H_kk is minus the third diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
@@ -251,7 +247,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # v_0 I + v_1 H + v_2 H^2.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # Both matrices are Hermitian, so their entries (k, j) are p - i q and r - i s.
+        # Both matrices are Hermitian. Their entries (k, j) are therefore p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
@@ -260,23 +256,23 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 def _polynomial(y: list[float], norm: float) -> list[float]:
     """Return the value of the Taylor polynomial of the exponential for the matrix with the coordinates ``y``.
 
-    ``norm`` is a bound of the norm of the matrix. The degree is the smallest sufficient degree in
-    :data:`DEGREES`.
+    ``norm`` is a bound of the norm of the matrix. The degree is the smallest one in :data:`DEGREES` that
+    gives full accuracy for this bound.
     """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
     # ``parts[0]`` contains the real parts of the coefficients of I, H and H^2. ``parts[1]`` contains the
-    # imaginary parts. Horner's rule begins with the coefficient of the highest power of H. The exponent of
-    # this power is a multiple of 4, so the coefficient is real.
+    # imaginary parts. The degree n of the polynomial is a multiple of 4. Hence its leading coefficient i^n/n!
+    # is real.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # The term of degree 4 * ``group`` + k has the factor i^k. It is 1, i, -1, -i for k = 0, 1, 2, 3.
+            # The term of degree 4 * ``group`` + k has the factor i^k, which is 1, i, -1 or -i.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term
-                # Because of H^3 = p H + q I, the product of H and a I + b H + c H^2 is
+                # Since H^3 = p H + q I, the product of H and a I + b H + c H^2 is
                 # q c I + (a + p c) H + b H^2.
                 part[:] = signed + q * part[2], part[0] + p * part[2], part[1]
     return combined(y, square_of_hermitian(y), *parts)
