@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""If the sum exp(A) = 1 + A + A^2/2 + ... has at most this number of non-zero terms, it is written as scalar
-formulas. The sum is finite if the zeros in the matrix A imply that a power of A is zero.
+"""If the sum exp(A) = 1 + A + A^2/2 + ... has at most this number of non-zero terms, scalar formulas replace
+the call of the exponential. The sum is finite if a power of the matrix A is zero.
 """
 
 
@@ -24,10 +24,9 @@ formulas. The sum is finite if the zeros in the matrix A imply that a power of A
 class MatrixExponential(VectorFunction):
     """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
-    For ``level`` = 0 the function maps a matrix to its exponential. The function of level l + 1 computes the
-    function of level l and its derivative. It has the arguments of the function of level l, followed by the
-    derivatives of these arguments. It returns the results of the function of level l, followed by the
-    derivatives of these results. All arguments together are called a jet: a matrix with its derivatives.
+    For ``level`` = 0 the function maps a matrix A to exp(A). For ``level`` = 1 the arguments are A and a
+    derivative of A, and the results are exp(A) and the derivative of exp(A). Each further level adds the
+    derivatives of all arguments and of all results. A matrix with its derivatives is called a jet.
     """
 
     n: int
@@ -45,17 +44,16 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The typical numbers of additions and multiplications in one call. Squarings are not counted."""
-        # A product of two jets of level l (matrices with their derivatives) consists of 3^l products of
-        # matrices. A Taylor polynomial of degree 12 needs five products of jets.
+        """Approximate numbers of additions and multiplications in one call, without squarings."""
+        # The Taylor polynomial is assumed to have degree 12, so it requires five products of jets. A product
+        # of two jets consists of 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``.
 
-        The exponential of the next level (``level`` + 1) returns these derivatives in the second half of its
-        results.
+        The exponential with ``level`` + 1 computes them. They are the second half of its results.
         """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -66,17 +64,17 @@ class MatrixExponential(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
 
-        A is the jet ``args`` (a matrix with its derivatives). Its zeros determine the number of terms.
+        A is the jet ``args`` (a matrix with its derivatives). The zeros in A determine the number of terms.
         """
-        # ``pattern`` is 1 for each entry of A that may be non-zero, and 0 for all others. It has no negative
-        # entries, so nothing cancels in its powers. Hence a zero in a power of ``pattern`` is also a zero in
-        # the same power of A.
+        # ``pattern`` contains 1 for each entry of A that may be non-zero, and 0 for each other entry. If an
+        # entry of a power of ``pattern`` is zero, the same entry of this power of A is zero. The reason is
+        # that ``pattern`` has no negative entries, so nothing cancels in its powers.
         pattern = power = [int(not x.is_zero) for x in args]
-        # The sum is finite if the first matrix of the jet is nilpotent. The other matrices of the jet are
-        # derivatives. They may be arbitrary, because products of more than ``level`` derivatives are zero.
+        # If the first matrix of the jet is nilpotent, the sum is finite. The derivatives in the jet may be
+        # arbitrary, because a product of more than ``level`` derivatives is zero.
         if not is_nilpotent(self.n, pattern):
             return None
-        # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
+        # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that must be zero.
         count = 1
         while any(power):
             count += 1
@@ -88,7 +86,7 @@ class MatrixExponential(VectorFunction):
         total = [space.one if k in diagonal else space.zero for k in range(self.size)]
         term = list(args)
         for k in range(1, count):
-            # ``term`` is A^k/k! at this point.
+            # At the beginning of pass k, ``term`` is A^k/k!.
             total = [x + y for x, y in zip(total, term, strict=True)]
             divisor = space.coerce(k + 1)
             term = [x / divisor for x in matrix_exponential.product(self.n, self.level, term, args)]
@@ -103,15 +101,16 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential of a matrix of truncated power series, and its derivatives.
+        """Return the exponential of a matrix A of truncated power series, and the derivatives of exp(A).
 
-        ``args`` is a jet: a matrix A, followed by its derivatives. The constant terms of A must form a
-        nilpotent matrix.
+        ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
+        nilpotent.
         """
-        # Let N be the nilpotent matrix of the constant terms, so that N^n = 0. All other terms of the jet
-        # contain h or a symbol d_k with d_k^2 = 0 (see :mod:`codegen.ir.matrix_exponential`). A product of
-        # ``longest`` terms of the jet contains n successive factors N, or a factor d_k twice, or a power of h
-        # that is truncated. It is zero in each of these three cases.
+        # Let C be the matrix of the constant terms of A. It is nilpotent, so C^n = 0. Each other term of the
+        # jet contains h or one of the ``level`` symbols d_k of :mod:`codegen.ir.matrix_exponential`, with
+        # d_k^2 = 0. A non-zero product of terms thus has at most ``ring.order`` factors with h, at most
+        # ``level`` factors with a d_k, and fewer than n successive factors C. A product of ``longest`` terms
+        # is longer, so it is zero.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -148,7 +147,7 @@ class MatrixInverse(VectorFunction):
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None, because a call of the inverse is never replaced by scalar formulas."""
+        """Return None: emitted code always calls the function for the inverse."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
@@ -166,8 +165,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
-            # The pivot must be a power series with an inverse, that is, with a non-zero constant term. Its
-            # valuation (the lowest power of h) is then 0.
+            # A pivot must have a non-zero constant term, because only such a power series has an inverse. The
+            # valuation (the lowest exponent of h) of a pivot is therefore 0.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -181,18 +180,18 @@ class MatrixInverse(VectorFunction):
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
 
-    Such a matrix has a zero at each place at which ``pattern`` has a zero. Its other entries are arbitrary.
-    The criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero
-    entry (i, j) of ``pattern``. All such matrices are nilpotent if the graph has no cycle.
+    Only the zeros are given. The other entries of the matrix are arbitrary. The criterion uses a graph with
+    the vertices 0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j. The function
+    returns True if this graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
     """
-    # ``left`` contains the vertices that may be in a cycle.
+    # ``left`` contains the vertices that are not yet removed. All vertices of a cycle are in ``left``.
     left = set(range(n))
     while left:
-        # A vertex without an edge to a vertex in ``left`` is in no cycle, so it is removed. If each vertex
-        # has such an edge, a cycle exists.
+        # ``ends`` contains the vertices without an edge to a vertex in ``left``. They are in no cycle and are
+        # removed. If ``ends`` is empty, a path in ``left`` never ends, so the graph has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

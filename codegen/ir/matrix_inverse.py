@@ -14,31 +14,31 @@ def inverse(
 ) -> tuple[Scalar, ...] | None:
     """Return the inverse of a matrix, row by row, or None for a singular matrix.
 
-    ``a`` contains the entries of the n x n matrix, row by row. ``one`` is the number 1 with the type of the
-    entries. The pivot of a column is the entry x with the largest ``size(x)``. Emitted code executes the same
-    operations in the same order, so it computes exactly the same doubles.
+    ``a`` contains the entries of the n x n matrix, row by row. ``one`` is the number 1 in the type of the
+    entries. The pivot of a column is the entry x with the largest ``size(x)``. For doubles, emitted code
+    executes the same operations in the same order, so its results are identical.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # The test ``not ... > 0`` is also true for a NaN, because comparisons with a NaN are false.
+        # A pivot is accepted only if its size is greater than 0. This test rejects a NaN, too.
         if not size(rows[pivot][k]) > 0:
             return None
         order.append(pivot)
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Column k of the matrix becomes a unit vector and need not be stored. The array stores column k of
-        # the inverse in its place.
+        # Elimination turns column k of the matrix into a unit vector. This vector is not stored. Column k of
+        # ``rows`` stores column k of the inverse instead.
         rows[k][k] = factor
         for i in range(n):
             if i != k:
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # An exchange of two rows of a matrix exchanges two columns of its inverse. The columns are therefore
-    # exchanged here, in the reverse order of the row exchanges.
+    # ``rows`` is now the inverse of the matrix with exchanged rows. The exchange of two rows of a matrix
+    # exchanges the same two columns of the inverse. The loop undoes these exchanges, the last one first.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
-"""The names of the functions of w in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w,
-w/(exp(w) - 1), and w itself.
+"""The names of the functions in the coefficients of a step. As functions of a variable w, they are exp(w),
+phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w itself.
 """
 
 WIDTH = 100
@@ -31,13 +31,13 @@ each term.
 """
 
 STATE = -1
-"""The value of :attr:`Term.source` for a term with the old state."""
+"""The value of :attr:`Term.source` for a multiple of the old state."""
 
 
 @dataclass(frozen=True)
 class Factor:
-    """The value of the function named ``function`` at w = ``scale`` * z, as a function of z. Here z is h
-    times an eigenvalue of L.
+    """The function of z that applies the function named ``function`` to ``scale`` * z. Here z is h times an
+    eigenvalue of L.
     """
 
     function: str
@@ -51,7 +51,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # Two scales may round to the same double. They are then sorted by their texts.
+        # If two different scales round to the same double, their texts determine the order.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -63,7 +63,7 @@ ONE = Number.rational(1)
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A coefficient of a step as a function of z. It is a polynomial in functions of z (:class:`Factor`).
+    """A polynomial in functions of z (:class:`Factor`), where z is h times an eigenvalue of L.
 
     ``terms`` maps each monomial to its exact numeric coefficient.
     """
@@ -77,16 +77,12 @@ class Multiplier:
 
     @classmethod
     def of(cls, function: str, scale: Number) -> Multiplier:
-        """Return the value of the function named ``function`` at w = ``scale`` * z, as a function of z. For
-        ``scale`` = 0 the result is constant.
-        """
+        """Return the function named ``function``, applied to ``scale`` * z."""
         if scale.is_zero:
-            # At w = 0, the function :data:`POWER` (w itself) has the value 0. The functions exp(w), phi_1(w)
-            # and w/(exp(w) - 1) have the value or the limit 1.
+            # At w = 0 the function w (:data:`POWER`) is 0. The other functions are 1 or tend to 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # The product of ``scale`` and z is stored as a term with the coefficient ``scale`` and the factor
-            # z. All multiples of z then contain the same factor.
+            # ``scale`` becomes the coefficient of the factor z. Two multiples of z can thus be added.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -101,7 +97,7 @@ class Multiplier:
         total = Multiplier()
         for a, x in self.terms.items():
             for b, y in other.terms.items():
-                # The addition joins this term with an earlier term that has the same monomial.
+                # The operator + adds the coefficients of equal monomials.
                 total = total + Multiplier({_product(a, b): x * y})
         return total
 
@@ -121,7 +117,7 @@ class Multiplier:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors in all terms, without repetitions, in the order of the terms."""
+        """The factors of all terms, without repetitions, in the order of :attr:`key`."""
         # The dictionary removes repeated factors and keeps their order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
@@ -149,7 +145,7 @@ class Multiplier:
 def _product(a: Monomial, b: Monomial) -> Monomial:
     """Return the product of two monomials. Exponentials satisfy exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
-    # The product of all exponentials is exp(``exponent`` z).
+    # The product of all exponentials in ``a`` and ``b`` is exp(``exponent`` z).
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
@@ -190,12 +186,11 @@ class Table:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a linear combination: a coefficient times the old state, or times a value of the nonlinear
-    part N.
+    """A coefficient times the old state, or a coefficient times a value of the nonlinear part N.
 
-    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise it contains the value of N that
-    the evaluation with the index ``source`` computes. The coefficient is the table with the index ``table``,
-    or 1 if ``table`` is None.
+    If ``source`` is :data:`STATE`, the coefficient multiplies the old state. Otherwise ``source`` is the
+    index of an evaluation of N, and the coefficient multiplies its value. If ``table`` is None, the
+    coefficient is 1. Otherwise ``table`` is the index of the coefficient in :attr:`ModeStep.tables`.
     """
 
     source: int
@@ -206,7 +201,8 @@ class Term:
 class Evaluation:
     """An evaluation of the nonlinear part N in a step.
 
-    The argument of N is the sum of the terms in ``point``. The time is t + ``time`` * h.
+    N is evaluated at the sum of the terms in ``point``, and at the time t + ``time`` * h. The step begins at
+    the time t and has size h.
     """
 
     point: tuple[Term, ...]
@@ -215,12 +211,12 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Nonlinearity:
-    """The nonlinear part N(u), as a sum of x-derivatives of functions that are evaluated point by point.
+    """The nonlinear part N(u). It is a sum of x-derivatives of functions f_j.
 
-    - ``inner`` contains a pair (order, symbol) for each x-derivative of u that the functions contain.
-    - ``formulas`` is the kernel of the functions. Its inputs are the derivatives in ``inner``, x, t and the
-      parameters. It has one output for each term of N. Term j of N is output j, differentiated ``outer[j]``
-      times with respect to x.
+    - ``inner`` contains a pair (order, symbol) for each x-derivative of u in the functions f_j. Order 0 is u.
+    - ``outer`` contains, for each j, the number of times that f_j is differentiated with respect to x.
+    - ``formulas`` computes the values of all f_j at one point x. Its inputs are the derivatives in ``inner``,
+      x, t and the parameters.
     - ``kept`` is the fraction of the Fourier modes of N that are used. The modes with the highest wave
       numbers are set to zero to avoid aliasing.
     """
@@ -235,14 +231,15 @@ class Nonlinearity:
 class ModeStep:
     """One step on Fourier modes.
 
-    - ``tables`` are the coefficients of the linear combinations.
-    - ``evaluations`` are the evaluations of N, in the order of execution.
+    - ``tables`` contains the coefficients of all terms.
+    - ``evaluations`` contains the evaluations of N, in the order of execution.
     - ``result`` contains the terms whose sum is the new state.
-    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its first output
-      is the real part of lambda. If some eigenvalues are not real, the second output is the imaginary part.
-    - ``length`` is the kernel that computes the length of the periodic interval.
-    - ``initial`` is the kernel that computes the initial state at the point x.
-    - ``wave`` and ``space`` are the names of the symbols for the wave number and for x.
+    - ``nonlinearity`` is the nonlinear part N.
+    - ``wave`` and ``space`` are the names of two variables: the wave number and x.
+    - ``symbol`` computes the eigenvalue lambda of L from the wave number. The first output is the real part
+      of lambda. If L may have eigenvalues that are not real, the second output is the imaginary part.
+    - ``length`` computes the length of the periodic interval.
+    - ``initial`` computes the initial state at the point x.
     """
 
     tables: tuple[Table, ...]
@@ -258,7 +255,7 @@ class ModeStep:
     @property
     def complex(self) -> bool:
         """True if L may have eigenvalues that are not real."""
-        # The second output of ``symbol`` is the imaginary part of the eigenvalue.
+        # In this case ``symbol`` has a second output: the imaginary part of the eigenvalue.
         return len(self.symbol.outputs) > 1
 
     @property
@@ -270,9 +267,9 @@ class ModeStep:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The sorted functions of z in the coefficients of the step, without repetitions."""
+        """The different factors of all coefficients of the step, sorted by :attr:`Factor.order`."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
-        # The factors are sorted, so that their order does not depend on the order of the tables.
+        # Sorting makes the result independent of the order of the coefficients in ``tables``.
         return tuple(sorted(factors, key=lambda f: f.order))
 
     @property
@@ -286,13 +283,13 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """A number p that describes the growth of the coefficients of the step. For z < 0, their absolute
-        values are at most a constant times (1 + |z|)^p.
+        """A number p such that every coefficient of the step is at most C (1 + |z|)^p in absolute value for
+        z < 0, with a constant C.
 
-        If :attr:`backwards` is true, this bound is wrong, because some coefficients grow exponentially.
+        If :attr:`backwards` is true, p is not meaningful, because some coefficients grow exponentially.
         """
-        # ``degrees`` contains exponents of |z|. As z tends to -infinity, phi_1(z) behaves like -1/z,
-        # z/(exp(z) - 1) behaves like -z, and exp(z) is at most 1.
+        # As z tends to -infinity, phi_1(z) behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|. The
+        # function exp(z) is bounded. ``degrees`` contains these exponents of |z|.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         # The degree of a product is the sum of the degrees of its factors. The result is the largest degree
         # of all terms.
@@ -300,7 +297,7 @@ class ModeStep:
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
     def kernels(self) -> tuple[Kernel, ...]:
-        """Return the kernels of the step: eigenvalues, length of the interval, N, and initial state."""
+        """Return the kernels that compute the eigenvalues, the interval length, N and the initial state."""
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:
@@ -315,13 +312,13 @@ class ModeStep:
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
-            # The time is printed only if it is not t.
+            # The time t is not printed. Other times are printed.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            # The poles are purely imaginary and not zero. They matter only if z is not real.
+            # No pole is real. If all eigenvalues are real, z is real, and the poles are not mentioned.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"coefficients for z < 0: {self.bound()}")
@@ -346,7 +343,7 @@ class ModeStep:
             source = "u" if term.source == STATE else f"N{term.source + 1}"
             factor = "" if term.table is None else self.tables[term.table].text()
             several = term.table is not None and len(self.tables[term.table].multiplier.terms) > 1
-            # The text of a coefficient such as ``h (a + b)`` already contains parentheses.
+            # ``h (a + b)`` is printed without further parentheses.
             shown = f"({factor})" if several and not factor.startswith("h (") else factor
             words.append(f"{shown} {source}".strip())
         line = f"{name} = {' + '.join(words) or '0'}{remark}"
