@@ -1,10 +1,11 @@
 """Simplification of expressions by the equations of a group, such as g^T g = 1.
 
-Such an equation is called a relation. It states that the product of two coordinates equals a sum. An
-expression is first expanded as a polynomial in symbols, function calls and inverses. Then each product to
-which a relation applies is replaced by the equal sum. For example, |g y|^2 becomes |y|^2 if g is orthogonal.
-The result is called the normal form of the expression. It is not unique: equal expressions may have different
-normal forms. The normal form may be longer than the given expression.
+A relation is an equation between a product of two symbols and a sum. The expression is expanded as a
+polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
+in a relation is replaced by its sum. If g is orthogonal, for example, |g y|^2 becomes |y|^2.
+
+The result is called the normal form of the expression. Equal expressions may have different normal forms. The
+normal form may be longer than the given expression.
 """
 
 from __future__ import annotations
@@ -15,13 +16,15 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of expressions, as sorted pairs (node number of the expression, exponent)."""
+"""A product of powers of expressions. Each power is a pair (node number of the expression, exponent). The
+pairs are sorted by node number.
+"""
 
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""Two symbols, and a sum that equals their product. Each term of the sum is a pair (number, symbols) and
-denotes the product of the number and the symbols.
+"""The pair ((a, b), sum) means that the product of the symbols a and b equals the sum. Each term of the sum
+is a pair (number, symbols). The term is the product of the number and the symbols.
 """
 
 ONE = Number.rational(1)
@@ -29,8 +32,8 @@ MOST_TERMS = 400
 """The largest number of terms of a polynomial. An expression whose expansion has more terms is not
 simplified.
 
-The limit bounds the compile time. Its exact value is not important: the limits 200 and 800 give the same
-emitted files (``orderconds regenerate --check``).
+Without a limit, the simplification of a long expression could be very slow. The limits 200 and 800 give the
+same emitted files (``orderconds regenerate --check``).
 """
 
 
@@ -42,7 +45,7 @@ class NormalForms:
     """Simplifies the expressions of one :class:`Space` by relations.
 
     Each relation replaces a product of two symbols by an equal sum. The replacement is repeated until no
-    relation applies. The caller must choose relations for which this process ends. The expressions in
+    relation applies. The caller chooses relations for which the replacement ends. The expressions in
     ``whole`` are not expanded.
     """
 
@@ -55,8 +58,7 @@ class NormalForms:
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # In a monomial, the node numbers are sorted. The pair of numbers in a key is sorted in the same
-            # way.
+            # The key in ``rules`` is the pair of node numbers of a and b, in ascending order.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -64,14 +66,13 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The sum ``right`` may itself contain products to which a relation applies. They are replaced
-            # later, in ``_reduced``.
+            # A relation may also apply to a term of ``right``. The method ``_reduced`` replaces this term.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return the simplified form of ``root``. Both have equal values wherever the relations hold.
+        """Return the simplified form of ``root``. If the relations hold, it has the same value as ``root``.
 
-        If the expansion is too long, ``root`` itself is returned.
+        If the expansion has too many terms, ``root`` itself is returned.
         """
         try:
             return self.expression(self.polynomial(root))
@@ -79,7 +80,7 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and simplify it by the relations until no relation applies.
+        """Expand ``root`` as a polynomial, and apply the relations as long as possible.
 
         :class:`TooLong` is raised if the polynomial has too many terms.
         """
@@ -101,8 +102,8 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only products need a reduction by relations. A sum of reduced polynomials contains no
-                    # new products.
+                    # A relation replaces a product of two symbols. A sum of two polynomials contains no new
+                    # product, so only a product of polynomials is reduced.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -111,7 +112,7 @@ class NormalForms:
                         # short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # The inverse of a divisor becomes a variable, so that a quotient becomes a product.
+                    # The quotient a/b becomes the product of a and the new variable 1/b.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
@@ -132,7 +133,7 @@ class NormalForms:
         # This is Horner's rule in several variables. If several variables occur in the largest number of
         # terms, the variable with the smallest node number is factored out.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
-        # If each variable occurs in only one term, factoring out would save no product.
+        # A variable that occurs in only one term is not factored out. This would save no multiplication.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -144,7 +145,8 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # ``inside`` has lower degrees, and ``outside`` has fewer terms, so the recursion ends.
+        # The polynomial is ``best`` times ``inside`` plus ``outside``. The recursion ends, because ``inside``
+        # has lower degrees and ``outside`` has fewer terms.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -167,34 +169,31 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # The work is proportional to the number of pairs of terms, so this number is limited. The limit is
-        # larger than ``MOST_TERMS``, because many pairs may give the same monomial.
+        # The work is proportional to the number of pairs of terms. The product often has fewer terms than
+        # there are pairs, so the limit for pairs is larger than ``MOST_TERMS``.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # The number of terms of nested products of sums grows exponentially. Without this limit an expansion
-        # could fill the memory.
+        # If products of sums are nested, the number of terms grows exponentially. Without the limit, the
+        # terms could fill the memory.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
 
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
-        """Replace products in a polynomial by the relations, and return the result. It contains no product to
-        which a relation applies.
-        """
+        """Apply the relations to the products in a polynomial until no relation applies."""
         done: Polynomial = {}
-        # ``popitem`` removes the entry that was added last. The terms are therefore always processed in the
-        # same order.
+        # ``popitem`` removes the newest entry, so the order of the terms is the same in every run.
         waiting = dict(polynomial)
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The term must contain the product of the variables i and j. For i = j this is a square, so
-                # the exponent must be at least 2.
+                # The term must contain the product of the variables i and j. If i = j, the exponent of i must
+                # be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
@@ -213,8 +212,8 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
     if not m or not n:
         return m or n
-    # Monomials are sorted by node numbers. If all node numbers in m are smaller than those in n, then the
-    # tuple m + n is already sorted.
+    # The pairs of a monomial are sorted by node number. If each node number in m is smaller than each node
+    # number in n, the tuple m + n is sorted.
     if m[-1][0] < n[0][0]:
         return m + n
     if n[-1][0] < m[0][0]:

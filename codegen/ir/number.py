@@ -1,9 +1,10 @@
 """Exact constants, such as the coefficients of a Butcher tableau. Each number is an element of a ring.
 
-A number is exact (rational or algebraic), or it is given by a ball, that is, by an interval that contains it.
-It is rounded to a double only when code is printed. Two numbers are treated as equal if their keys are equal
-(:attr:`Number.key`). The key of a ball consists of its end points. The difference of equal numbers is exactly
-0, and their quotient is exactly 1. Multiplication by 1 does not make a ball wider.
+A rational or algebraic number is exact. Another number is given by a ball, that is, by an interval that
+contains the number. When code is printed, each number is rounded to a floating-point number.
+
+The comparison x == y compares the keys of x and y (:attr:`Number.key`). The key of a ball consists of its end
+points. If x == y, x - y is exactly 0 and x/y is exactly 1. Multiplication by 1 does not make a ball wider.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The pattern limits the number of digits of a number and of its exponent. Otherwise
+# The pattern limits the length of a number and the length of its exponent. Without these limits,
 # ``Fraction("1e999999999")`` would build an integer with a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
@@ -26,12 +27,12 @@ _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 def is_normal(value: Fraction) -> bool:
     """Return True if ``value`` is zero or its absolute value is in the range of normal doubles.
 
-    The nearest double then has the full relative precision.
+    If such a value is rounded to a double, the relative error is at most 2^-53.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
-    # A denormal number has fewer bits, so its relative rounding error may exceed 2^-53.
+    # A denormal double has fewer than 53 bits, so the relative error may be larger.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -47,9 +48,8 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
-        # The key of a ball consists of its exact end points. Two balls with equal end points are treated as
-        # the same number.
+        """A value that represents this number in the comparison ``==``."""
+        # The key of a ball consists of its exact end points, so balls with equal end points compare equal.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -71,8 +71,8 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the number in a text that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised if the text is not a rational number, or the number is outside the range of
-        normal doubles.
+        ValueError is raised if the text is not a rational number. It is also raised if :func:`is_normal` is
+        False for the number.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
@@ -84,7 +84,7 @@ class Number:
         except ZeroDivisionError:
             value = None
         if value is None or not is_normal(value):
-            expected = "a rational number such as 1/2, with absolute value 0 or between 1e-307 and 1e308"
+            expected = "0 or a rational number such as 1/2, with absolute value between 1e-307 and 1e308"
             raise ValueError(expected)
         return cls.rational(*value.as_integer_ratio())
 
@@ -113,8 +113,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # Numbers of two different rings can be combined only if one ring is QQ, the rational numbers. The
-        # rational number is then converted to the ring of the other number.
+        # If the rings differ, one ring must be QQ (the rational numbers). The rational number is converted to
+        # the other ring.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -146,8 +146,8 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # If one factor is 1, the other factor is returned. A multiplication would make a ball (an interval)
-        # wider.
+        # If one factor is 1, the other factor is returned unchanged. A multiplication by 1 in ball arithmetic
+        # could make the ball of the other factor wider.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
@@ -175,14 +175,14 @@ class Number:
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
-        """Return this number as a Fraction. TypeError is raised if it is not stored as a rational number."""
+        """Return this number as a Fraction. TypeError is raised if :attr:`is_rational` is False."""
         if not self.is_rational:
             message = f"the number {self.text()} is not stored as a rational number"
             raise TypeError(message)
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Return this number as text. The text is exact, or a rounded decimal if the number is given by a
-        ball (an interval).
+        """Return this number as text. For a number given by a ball, the text is a rounded decimal. For any
+        other number, the text is exact.
         """
         return self.ring.text(self.element)

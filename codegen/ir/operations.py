@@ -1,11 +1,11 @@
 """The operations of step programs (:mod:`codegen.ir.program`): one small class for each operation.
 
-A class defines how its operation is printed, which kinds the arguments and results have, and how the
-operation is evaluated. A kind is a space such as the Lie algebra or the group. An operation whose attribute
-``dual`` is true acts on the dual of the Lie algebra.
+A class defines the text of its operation, the evaluation of the operation, and the kinds of its arguments and
+results. A kind is a space such as the Lie algebra or the group. Some classes have the attribute ``dual``. If
+``dual`` is true, the operation acts on the dual of the Lie algebra.
 
-The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g are the
-transposes of ad_x and Ad_g, without a sign or an inverse.
+The bracket is [x, y] = AB - BA, where A and B are the matrices of x and y. The map ad*_x is the transpose of
+ad_x, without a minus sign. The map Ad*_g is the transpose of Ad_g, without an inverse.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each of these variables is a tuple with one kind. The kinds of two arguments are then a sum of tuples,
-# such as ``G + A``.
+# Each variable is a tuple with one kind. The sum of two tuples describes two arguments: ``G + A`` means a
+# group element and an element of the Lie algebra.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -33,15 +33,15 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 class Problem(Protocol):
     """The differential equation to solve: the Lie group, its action, and the vector field or Hamiltonian.
 
-    The functions of a problem accept the scalars of every domain, such as doubles, power series or
-    expressions. A scene is the user's definition of the problem.
+    The user defines a problem in a scene. A domain is a type of scalars, such as doubles, power series or
+    expressions. The methods work for every domain.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function ``name``, which belongs to the group, its action or the scene.
+        """Return the results of the function ``name`` of the group, of its action or of the scene.
 
-        For the truncated dexp^{-1}, ``order`` is the number of brackets. For a Taylor polynomial, it is the
-        degree. For all other functions, it is None.
+        For the truncated dexp^{-1} and its derivative, ``order`` is the order of the truncation. For a Taylor
+        polynomial, ``order`` is the degree. For all other functions, ``order`` is None.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
@@ -66,8 +66,8 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. If the kinds
-    depend on parameters of the operation, its class overrides :meth:`signature`.
+    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. In some classes,
+    the kinds depend on parameters of the operation. Such a class overrides :meth:`signature`.
     """
     # Compiler passes simplify linear operations, for example by ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
@@ -82,8 +82,8 @@ class Operation(ABC):
     """The number of exponentials or exact flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports of the cost, or '' if the operation costs nothing. ``{s}`` is
-    replaced by the plural ending.
+    """The name of the operation in reports of the cost. If the operation costs nothing, the name is ''. The
+    report replaces ``{s}`` by the plural ending "s" or by nothing.
     """
 
     @property
@@ -97,9 +97,7 @@ class Operation(ABC):
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results of the operation for the arguments ``args``. The arguments consist of scalars of
-        ``domain``.
-        """
+        """Return the results of the operation for ``args``. The scalars in ``args`` belong to ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
@@ -132,11 +130,12 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the zero vector."""
-        # ``domain.rational(0)`` has the type of the scalars of the domain. A plain 0 may have another type.
+        # ``domain.rational(0)`` has the type of the scalars of the domain. The integer 0 may have another
+        # type.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
-# Compiler passes combine nested sums. They recognise a sum by this class.
+# Compiler passes combine nested objects of this class.
 @dataclass(frozen=True)
 class Linear(Operation):
     """A linear combination of vectors, with one coefficient for each argument."""
@@ -147,16 +146,16 @@ class Linear(Operation):
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the result for a combination in the Lie algebra."""
-        # The object does not store whether the vectors belong to the algebra or to its dual. :meth:`accepts`
-        # therefore also permits the dual.
+        # The object does not store whether its vectors belong to the algebra or to the dual. The method
+        # :meth:`accepts` permits both.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if there is one argument for each coefficient, and all arguments and the result have
         the same kind. This kind must be the algebra or its dual.
         """
-        # A combination without arguments is refused, because the kind of its result would be unknown.
-        # :class:`Zero` is used instead.
+        # A sum without terms is not accepted, because the kind of the sum would be unknown. The zero vector
+        # is an object of :class:`Zero`.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -171,13 +170,12 @@ class Linear(Operation):
         """Return the linear combination. Vectors with equal coefficients are added before they are multiplied
         by the coefficient.
         """
-        # Emitted code computes the sums and products in the same order.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # The dictionary ``groups`` keeps its order of insertion, so the order of the additions is fixed.
+            # A dictionary keeps the order of insertion, so the order of the additions is fixed.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -191,7 +189,9 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """The time t + c h of a stage. The argument is t, and ``coefficient`` is the product c h."""
+    """The time t + c h of a stage with node c and step size h. The argument is t. The product c h is
+    ``coefficient``.
+    """
 
     coefficient: Coefficient
     name = "advance"
@@ -217,7 +217,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # The argument ``order`` of ``apply`` is None, because the function does not truncate a series.
+        # The value None means that there is no order of truncation.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -241,8 +241,8 @@ class Exp(OfGroup):
 
 @dataclass(frozen=True)
 class ElementAt(OfGroup):
-    """The group element tau(x), where x is an element of the Lie algebra. The scene defines the coordinate
-    map tau (:mod:`codegen.groups.coordinate_maps`), for example the Cayley map.
+    """The group element tau(x) for an element x of the Lie algebra. The coordinate map tau is defined in the
+    scene, for example the Cayley map (:mod:`codegen.groups.coordinate_maps`).
     """
 
     name = "element_at"
@@ -255,8 +255,8 @@ class ElementAt(OfGroup):
 class InverseDifferential(OfGroup):
     """The element dtau^{-1}_x y of the Lie algebra, where tau is the coordinate map of the scene.
 
-    If a curve x(t) satisfies x' = dtau^{-1}_x y, the curve g(t) = tau(x(t)) in the group satisfies g' = y.g.
-    For a group of matrices, y.g is the matrix product.
+    Let x(t) be a curve with x' = dtau^{-1}_x y. Then the curve g(t) = tau(x(t)) in the group satisfies
+    g' = y.g. For matrices, y.g is the matrix product.
     """
 
     linear_in_last = True
@@ -267,7 +267,7 @@ class InverseDifferential(OfGroup):
 
 @dataclass(frozen=True)
 class Multiply(OfGroup):
-    """The group product g k. The product acts on a point y by (g k).y = g.(k.y)."""
+    """The product g k of the group elements g and k. For each point y, (g k).y = g.(k.y)."""
 
     name = "mul"
     takes, gives = G + G, G
@@ -292,8 +292,8 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-# For a matrix A, exp(A) y can be computed from products of A and vectors. This computation is often faster
-# than that of the matrix exp(A).
+# For a matrix A, exp(A) y can be computed from products of A and vectors. This is often faster than the
+# computation of exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -334,8 +334,7 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that computes the inverse of this linear map, for the same group element g."""
-        # Ad is a homomorphism, so Ad_{g^-1} is the inverse of Ad_g. The same holds for the transposed maps
-        # Ad*_{g^-1} and Ad*_g.
+        # The map Ad_{g^-1} is the inverse of Ad_g, and Ad*_{g^-1} is the inverse of Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -369,8 +368,8 @@ class Bracket(OfGroup):
 class InverseDexp(Operation):
     """The truncated series of dexp^{-1}_x y: the sum of B_k/k! ad_x^k y over k = 0, ..., ``order``.
 
-    Here B_k are the Bernoulli numbers, with B_1 = -1/2. If ``dual`` is true, ad*_x replaces ad_x, and mu in
-    the dual of the Lie algebra replaces y.
+    Here B_k are the Bernoulli numbers, with B_1 = -1/2. If ``dual`` is true, ad*_x replaces ad_x, and y is an
+    element of the dual of the Lie algebra.
     """
 
     order: int
@@ -386,8 +385,8 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The functions of ad_x that the operation applies: only the truncated dexp^{-1}."""
-        # If functions of the same ad_x are applied one after another, a compiler pass joins their words. One
-        # operation then replaces several operations.
+        # A word is a product of functions of ad_x. Several successive operations may have the same x. A
+        # compiler pass replaces them by one operation whose word is the product of all functions.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -408,9 +407,9 @@ class InverseDexp(Operation):
 class InverseDexpSlope(Operation):
     """The transposed derivative of dexpinv_x y with respect to x, applied to mu.
 
-    Here dexpinv is the truncated dexp^{-1} of order ``order``. Let P z be the derivative of dexpinv_{x + eps
-    z} y with respect to eps at eps = 0. The result P* mu satisfies <P* mu, z> = <mu, P z> for all z. The
-    arguments are x, y and mu.
+    The arguments are x and y in the Lie algebra and mu in its dual. Here dexpinv is the truncated dexp^{-1}
+    of order ``order``. Let P z be the derivative of dexpinv_x y with respect to x in the direction z. The
+    result P* mu satisfies <P* mu, z> = <mu, P z> for all z.
     """
 
     order: int
@@ -424,7 +423,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the transposed derivative of dexpinv_x y, applied to mu."""
+        """Return the vector P* mu."""
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -475,10 +474,10 @@ class AdSeries(Operation):
         """Return True if ``word`` is not empty and the operation maps arguments of these kinds to results of
         these kinds.
         """
-        # An empty word is the identity map. A compiler pass removes assignments with empty words.
+        # An empty word is the identity map. The operation is then superfluous, so it is not accepted.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions in ``word``, applied to the last argument."""
-        # All factors are functions of the same operator ad_x. They commute, so their order does not matter.
+        # Functions of one operator ad_x commute, so the order of the functions does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

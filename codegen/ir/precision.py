@@ -48,20 +48,20 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to a tolerance for this format. The quotient of tolerance and unit
-        roundoff does not change.
+        """Convert a tolerance for doubles to a tolerance for this format. The tolerance is proportional to
+        the unit roundoff of the format.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
         """
-        # Rounding errors are proportional to the unit roundoff, so the tolerance is proportional to it as
-        # well. ``UNIT`` is the unit roundoff of doubles. Both are powers of two, so their quotient is exact.
+        # ``UNIT`` is the unit roundoff of doubles. Unit roundoffs are powers of two, so the quotient is
+        # exact.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # A comparison with a NaN is false, so the form ``not ... <=`` also reports a NaN.
+        # For a NaN, both <= and > are False. Therefore the test is ``not <=`` and not ``>``.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -75,11 +75,9 @@ class Precision:
         # Python's ``repr`` of a float is the shortest text that is converted back to the same double.
         if self.bits == 53:
             return repr(x)
-        # Python finds the shortest text only for doubles. For single precision, each number of digits is
-        # tried.
+        # For single precision, Python has no such function. The loop tries 1 digit, 2 digits, and so on.
         for digits in range(1, self.digits + 1):
-            # Different doubles may round to the same single-precision number. Therefore the bytes in single
-            # precision are compared.
+            # ``struct.pack`` rounds both doubles to single precision. The rounded numbers are compared.
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
@@ -90,7 +88,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # :meth:`Precision.round` reports an infinite result as too large.
+        # The caller :meth:`Precision.round` raises InputError for an infinite number.
         return math.inf
 
 
@@ -103,17 +101,17 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The exact value is rounded only once. If it were first rounded to a double, this double could be a tie
-    # although the exact value is not. The second rounding would then be wrong.
+    # The exact value is rounded directly to ``bits`` bits. Rounding to a double first could give a wrong
+    # result: the double may lie exactly between two numbers of the format.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The exponent from the bit lengths may be too small by one. This line then adds one.
+    # The bit lengths may give an exponent that is too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # The last bit of all subnormal numbers has the same exponent, so these numbers have fewer bits.
+    # The last bit of a number is at least the smallest positive number of the format.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
-        # :meth:`Precision.round` reports an infinite result as too large.
+        # The caller :meth:`Precision.round` raises InputError for an infinite number.
         return math.copysign(math.inf, exact)
 
 
