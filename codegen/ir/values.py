@@ -11,8 +11,8 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The Lie algebra and its dual are different kinds, because different operations apply to them, such as Ad and
-# Ad*.
+# The Lie algebra and its dual are different kinds, because they have different operations. For example, Ad
+# acts on the algebra, and Ad* acts on the dual.
 class Kind(StrEnum):
     """The space that contains a value.
 
@@ -44,8 +44,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # A number may be known only by an interval (a ball) that contains it. An interval that contains 0 does
-    # not prove that the number is 0. The same holds for 1.
+    # Some numbers are known only as intervals. If the interval does not decide whether a property holds, the
+    # property is False.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -63,12 +63,12 @@ class Coefficient:
         return f"{self.value.text()}{h}"
 
     def evaluate(self, domain: Domain) -> Scalar:
-        """Return the coefficient as a scalar of ``domain``, the arithmetic of the evaluation (for example
-        doubles or power series).
+        """Return the coefficient as a scalar of ``domain``. A domain is an arithmetic, for example that of
+        doubles or of power series.
         """
         value = domain.number(self.value)
-        # ``value`` and the power of h are multiplied first, so that terms with equal coefficients can share
-        # this product.
+        # The coefficient is one product without other factors, so that terms with equal coefficients can
+        # share it.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -1,13 +1,13 @@
 """The names of vector functions. A vector function is a function whose result is an array.
 
-Expressions call a vector function by its name. The number in a name is the number of rows of the matrix:
+Expressions call a vector function by its name. The first number in the name is the number of rows:
 - ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential with its derivative.
 - ``inverse5`` is the inverse of a matrix.
 - ``product5`` is the product of two matrices, and ``commutator5`` is the commutator of two matrices.
 - ``expmv5`` is the matrix exponential applied to a vector.
 - ``expsu3`` is the exponential of a matrix of su(3).
 
-One result of a vector function has the name of the function with an index, such as ``inverse5.7``.
+The suffix ``.k`` denotes result k of the function. For example, ``inverse5.7`` is result 7 of ``inverse5``.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
-# In ``expmv5_1f`` the hexadecimal number 1f is a pattern: bit k is set if entry k of the matrix may be
-# non-zero.
+# The suffix of ``expmv5_1f`` is a hexadecimal number. If bit k of this number is 0, entry k of the matrix is
+# zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
-# The number in the suffix ``_d1`` is the level of a matrix exponential: how often it is differentiated.
+# The number in the suffix ``_d1`` is the level of ``expm``: the highest order of its derivatives.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -53,7 +53,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # Only the matrix exponential ``expm`` has levels. At a level above 0 its results include derivatives.
+    # Only the matrix exponential ``expm`` has a level.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 

@@ -1,7 +1,8 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-In expressions, result k is a call of the function ``NAME.k`` with all scalars of the arrays as arguments
-(:mod:`codegen.ir.vector_calls`). In emitted code one call computes all results.
+An expression calls the function ``NAME.k`` for result k of the function ``NAME``
+(:mod:`codegen.ir.vector_calls`). The arguments of the call are the entries of all argument arrays. In emitted
+code, one call computes all results.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 class VectorFunction(ABC):
     """A function whose arguments are arrays of scalars, and whose result is an array of ``size`` scalars.
 
-    Matrices are stored row by row in these arrays. ``n`` is the number of rows of a matrix.
+    A matrix is stored row by row in its array. The attribute ``n`` is the number of rows.
     """
 
     n: int
@@ -36,8 +37,7 @@ class VectorFunction(ABC):
     @property
     def arrays(self) -> tuple[int, ...]:
         """The lengths of the argument arrays."""
-        # The default is one array with ``size`` entries, as in a function that maps an n x n matrix to an
-        # n x n matrix.
+        # By default there is one argument array. It has the same length as the result.
         return (self.size,)
 
     @property
@@ -47,30 +47,30 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results along a curve (or in a direction).
+        """Return the derivatives of the results in the direction ``rates``.
 
-        ``args`` are the arguments, and ``rates`` are the derivatives of the arguments.
+        ``args`` are the arguments. ``rates`` contains one component of the direction for each argument.
         """
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the argument with the index ``argument``."""
         space = args[0].space
-        # A partial derivative is the derivative in the direction of one argument. The derivative of this
-        # argument is 1, and the derivatives of all other arguments are 0.
+        # A partial derivative is a directional derivative. The component of the direction is 1 for
+        # this argument, and 0 for all other arguments.
         return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return scalar formulas for the results of a call with the arguments ``args``.
 
-        The result is None if the call should remain a call in emitted code.
+        The result is None if emitted code should call the vector function.
         """
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
         """Return the results in doubles, computed by the same operations as in emitted code.
 
-        If no digit of a result would be correct, the result is NaN.
+        All results are NaN if the function fails, for example if a matrix is singular or too large.
         """
 
     @abstractmethod

@@ -47,11 +47,11 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # Each output is the new value of an input. Only the coefficients of a continuous extension (dense
-            # output) belong to no input, so they are skipped.
+            # An output must have the kind of its input. The coefficients of a continuous extension (dense
+            # output) have no input, so they are skipped.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The embedded solution is an approximation of the new state y, so its kind must be the kind of y.
+            # The embedded solution approximates the new state y, so both must have the same kind.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
                     f"{self.program.name}: the output {name} has the kind {var.kind}, but the corresponding "
@@ -80,20 +80,20 @@ class _Verifier:
         """
         for arg in assign.args:
             self.use(arg, assign)
-        # The targets are defined last, so that an assignment that reads its own result is rejected.
+        # The targets are defined after the arguments are checked. An assignment that reads its own target is
+        # thus rejected.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # Each unknown u_k of the system u = g(u) must have one start (its first value) and one image g_k(u)
-        # of the same kind.
+        # Each unknown of the equations u = g(u) needs a first value (start) and a value of g (image).
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The unknowns are defined after the check of the starts, so that an unknown of the block is rejected
-        # as a start.
+        # The starts are checked before the unknowns are defined. A start that is an unknown of the block is
+        # thus rejected.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
@@ -114,7 +114,7 @@ def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(
-            f"{name}: {block.label} needs unknowns, and one start and one image of equal kind for each"
+            f"{name}: {block.label} needs unknowns. Each unknown needs a start and an image of its kind"
         )
     if block.residuals and len(block.residuals) != len(block.unknowns):
         raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")

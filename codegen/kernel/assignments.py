@@ -2,9 +2,9 @@
 
 Shared and long expressions become assignments, and blocks of implicit equations become loops. A sweep is one
 execution of the body of a loop. A loop contains the expressions that depend on its unknowns. All other
-expressions are assigned before the loop. Statements after a loop read the values of the last sweep. The first
-values of the unknowns are assigned only in the first step of a run, because later steps start from earlier
-solutions.
+expressions are assigned before the loop. Statements after a loop use values of the last sweep, or compute
+these values again. If a step can start from the solutions of earlier steps, one statement before all loops
+sets the first values of the unknowns.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from codegen.ir.kernel import Let, Loop, Newton, Start
 from codegen.kernel.equations import WEIGHT, Block
 
 INLINE = 10
-"""The largest number of operations in one assignment. The parts of a longer expression get names.
+"""An expression with at least this number of operations gets a name.
 
-The limit changes the text of emitted code, but not the operations. For the method vcg:triple_jump on the
-scene heavy_top, the limits 5, 10 and 20 give 265, 199 and 187 assignments.
+A smaller limit gives more and shorter assignments with the same operations. For the method vcg:triple_jump on
+the scene heavy_top, the limits 5, 10 and 20 give 265, 199 and 187 assignments.
 """
 
 
 def unique_name(base: str, taken: set[str]) -> str:
-    """Append underscores to ``base`` until the name is new, and add it to ``taken``.
+    """Append underscores to ``base`` until the name is new. The new name is added to ``taken``.
 
     >>> taken = {"x"}
     >>> unique_name("x", taken), unique_name("x", taken)
@@ -57,8 +57,8 @@ class Assignments:
     count: int = 0
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
-        """Return the body of the kernel, and set ``outputs``."""
-        # The uses in all loops are counted, so that a value that two loops read gets a name.
+        """Return the body of the kernel. The output expressions are stored in ``outputs``."""
+        # ``_prepare`` counts the uses in all loops. A value that occurs in two loops thus gets a name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -66,11 +66,11 @@ class Assignments:
             # Values that depend on the unknowns of loop k are collected in ``inside``, all others in
             # ``self.body``.
             inside: list[Let] = []
-            # If ``remembers`` is true, one statement before all loops sets the first values of all unknowns.
+            # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # Newton's matrix to first order in h is computed before the sweeps. It is placed before the
-            # images, because it must not use names that the body of the loop defines.
+            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. The matrix is
+            # placed before the images, so that it uses no values of the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # ``block.kept`` lists values of the body for later statements. Values that no later expression
@@ -80,11 +80,11 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # Any other Newton matrix may use values of the body, so it is computed after the body.
+            # If ``block.leading`` is false, Newton's matrix may use values of the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's method corrects the unknowns at the end of the last sweep. So the values of the body
-            # were computed from the unknowns before this correction. They are computed again for later
-            # statements, if this takes little work or if the equations have residuals.
+            # Newton's method corrects the unknowns once more after the last execution of the body. The values
+            # of the body are then slightly outdated. Later statements compute these values again if the cost
+            # is low, or if the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -98,7 +98,7 @@ class Assignments:
                 only_unknowns_read=recomputed,
             )
             self.body.append(loop)
-        # The outputs come last, because they may use values of the bodies of all loops.
+        # The outputs may use values from every loop, so they are placed after all loops.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
@@ -110,7 +110,7 @@ class Assignments:
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        # A root counts as one use, so an expression that is a root and also an operand gets a name.
+        # Each root counts as one use. A root that is also an operand thus has two uses and gets a name.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
@@ -120,7 +120,7 @@ class Assignments:
         self.size: dict[int, int] = {}
         for root in roots:
             self.uses[root.id] = self.uses.get(root.id, 0) + 1
-        # Arguments come before the nodes that use them, so their levels are known.
+        # ``walk`` yields the arguments of a node before the node, so the levels of the arguments are known.
         for node in walk(roots):
             for arg in node.args:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
@@ -132,26 +132,24 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # Later steps of a run may skip the start statement, so no other statement may use names that it
-        # defines.
+        # A step may skip the start statement. Other statements must therefore not use names from it.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # If other statements also use a value, the value is assigned before the start statement.
+            # A value that other statements need is assigned before the start statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # Names that the start statement defines are deleted from ``done``, because a step may skip this
-        # statement.
+        # Names from the start statement are deleted from ``done``, so that no other statement uses them.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
-        """Return Newton's matrix, with the additional assignments that it needs."""
+        """Return Newton's matrix and the assignments that compute its entries."""
         # The matrix is computed only in some sweeps, so later statements must not use names that are
         # assigned for the matrix.
         before, own = dict(self.done), list[Let]()
@@ -164,23 +162,21 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if the values that later statements read can be computed again with little work.
+        """Return True if the values that later statements read can be computed again at low cost.
 
-        After loop k, these values are computed from the unknowns of the loop. The limit for the work is half
-        of the work of a sweep of the loop.
+        The limit is half of the cost of one sweep of loop k.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
-        # A value of a higher level depends on a later loop, so it is computed in that loop in any case.
+        # Values that depend on a later loop are not counted, because they are always computed after loop k.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Delete the names of values that depend on loop k, so that these values are computed again."""
-        # ``_place`` computes a value again if it has no entry in ``done``.
+        """Delete the values of loop k from ``done``. Later calls of ``_place`` compute these values again."""
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -189,18 +185,17 @@ class Assignments:
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with names in place of its shared and long subexpressions.
 
-        New assignments that depend on the unknowns of loop ``loop`` are appended to ``inner``, all others to
-        ``outer``.
+        The names are defined by new assignments. Assignments that depend on the unknowns of the loop with the
+        index ``loop`` are appended to ``inner``. All other assignments are appended to ``outer``.
         """
         # The traversal is not recursive, because expressions may be nested deeply.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
-            # Loop-invariant code motion: only nodes that depend on the unknowns are computed inside the loop.
+            # Only values that depend on the unknowns are computed in the loop (loop-invariant code motion).
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # No simplification is allowed here, because a new name for a subexpression must not change
-            # rounding errors.
+            # ``_make`` does not simplify. A simplified formula could have different rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value that is computed before the loop and read inside gets a name. Without a name, every
@@ -210,8 +205,7 @@ class Assignments:
             # The negative of a symbol costs nothing in all target languages, so it gets no name.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
-                # A named value is a symbol from now on, so it adds nothing to the size of the expressions
-                # that read it.
+                # A symbol contains no operations, so it needs no entry in ``size``.
                 symbol = self._let(node, rebuilt, target)
                 self.done[node.id] = symbol
             else:

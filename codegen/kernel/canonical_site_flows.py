@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-Some flows change each site independently of its neighbours. Successive flows of this kind form one sweep. A
-kick is a flow that changes only the momentum of each site. It reads the group elements q of the neighbours,
-but not the momenta of the neighbours. Therefore the sweep of a kick can overwrite the state.
+One sweep computes successive flows that act on each site separately. A kick is a flow that changes only the
+momenta. A kick reads the group elements q of the neighbours, but not the momenta of the neighbours. The sweep
+of a kick can therefore overwrite the state.
 """
 
 from __future__ import annotations
@@ -33,31 +33,31 @@ COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
 The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. Both
-sweeps must visit all sites and read no neighbours. If the first or the last sweep is a flow of pairs or a
-kick, a sweep that copies the state is added there.
+sweeps must visit all sites and read no neighbours. If the first sweep is a kick or a flow of pairs, a copy is
+added before it. If the last sweep is a kick or a flow of pairs, a copy is added after it.
 """
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
     """Return the kernel of a splitting method on a Hamiltonian lattice.
 
-    ``word`` lists the flows of a step with their durations. The time t advances only during the flows of
-    ``carrier``, one of the summands of the vector field.
+    ``word`` lists the flows of a step with their durations. ``carrier`` is a summand of the Hamiltonian. The
+    time t advances only during the flows of this summand. If ``carrier`` is None, t is constant.
     """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # All flows of a summand start at the same time, so the time is advanced after them.
+        # All flows of a summand start at the same time t. The time is advanced after the last of these flows.
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks may depend on time, because other parts that depend on time have no exact flow.
+    # Only kicks may depend on time. For other time-dependent parts, no exact flow is known.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # ``run`` lists the successive flows of one sweep. Two lists share a sweep if they contain the same
-        # flows and the ratios of the durations are equal.
+        # One sweep computes the successive flows in ``run``. If the same flows occur again in the step, with
+        # all durations changed by a common factor, the sweep is reused.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -71,11 +71,11 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
     """Return the kernel of a step that consists of the given flows.
 
-    A sweep that copies the state is added at the beginning or at the end if needed (:data:`COPY`).
+    If necessary, sweeps that copy the state are added before and after the flows (:data:`COPY`).
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
-    # A copy is added as a flow with duration zero.
+    # The sweep that copies the state is listed as a flow with duration zero.
     if ends:
         sweeps = [*sweeps, _copy(scene, label)]
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
@@ -106,7 +106,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 
 
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for flows that change each site independently of its neighbours.
+    """Return the sweep for flows that act on each site separately.
 
     In the kernel of the sweep, h is the duration of the first flow.
     """
@@ -130,15 +130,15 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         (s, k, row) for k, column in enumerate(sites.symbols) for row, s in enumerate(column) if s in read
     ]
     outside = None
-    # Outside an open boundary, formulas replace the coordinates of the missing neighbours.
+    # At an open boundary, formulas replace the coordinates of the missing neighbours.
     if sites.outside:
         values = {s: domain.space.sym(s) for s in scene.symbols}
         values |= scene.scalars(domain, domain.space.sym(TIME))
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # Neighbours may be read from the new state, because the sweep changes only momenta and reads only the
-    # group elements q of neighbours.
+    # The sweep changes only momenta, and reads only the group elements q of the neighbours. It can therefore
+    # read and write the same array.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))

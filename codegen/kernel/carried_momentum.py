@@ -1,9 +1,9 @@
-"""The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
+"""Conversion of the momentum between the space frame and the body frame.
 
-The step program and the emitted code may use different frames for the momentum. If only the program uses the
-body frame, a run transforms the momentum once at its beginning and once at its end
-(:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in each step
-instead.
+The step program and the emitted code may use different frames. If only the emitted code uses the body frame,
+each step converts the momentum. If only the program uses the body frame, a run converts the momentum once at
+its beginning and once at its end (:class:`codegen.ir.kernel.Carried`). With the option ``whole``, each step
+converts the momentum in this case, too.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    If ``whole`` is true, each step converts the momentum. Otherwise a run converts the momentum at its
-    beginning and at its end.
+    ``whole`` is used if only the program uses the body frame. If ``whole`` is true, each step converts the
+    momentum. If ``whole`` is false, a run converts the momentum at its beginning and at its end.
     """
 
     scene: Problem
@@ -62,7 +62,7 @@ class Frames:
         ``state`` is the old state of the emitted code. ``start`` is the initial state of the program, which
         ``begin`` computed from ``state``.
         """
-        # ``new`` may also be the embedded solution, which is empty if the method has none.
+        # ``new`` may be an embedded solution. It is empty if the method has no embedded solution.
         if self._alike or not new:
             return new
         # The group element is the same in both frames, so only the momentum is converted.
@@ -97,8 +97,8 @@ class Frames:
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         q, mu = state[: self._size], state[self._size :]
         fields = self.fields()
-        # If mu is the momentum in the space frame, Ad*_q mu is the momentum in the body frame. The inverse of
-        # this map is Ad*_{q^-1}.
+        # ``Adt`` maps the momentum mu in the space frame to the momentum Ad*_q mu in the body frame.
+        # ``Adtinv`` is the inverse map.
         turned = (self.scene.apply(domain, name, None, (q, mu))[0] for name in ("Adt", "Adtinv"))
         first, second = (Kernel(self.program.name, fields, (), (), tuple(new)) for new in turned)
         return Carried(first, second, self._size)

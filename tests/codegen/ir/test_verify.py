@@ -59,9 +59,9 @@ def test_a_well_formed_program_passes_unchanged(program):
         (replace(EULER, inputs=(y, y)), "assigned twice"),
         (replace(IMPLICIT, body=(BLOCK,)), "the starts of stage"),
         (replace(IMPLICIT, body=(FIELD, replace(BLOCK, images=(x,)))), "the images of stage"),
-        (replace(IMPLICIT, body=(FIELD, EMPTY)), "needs unknowns, and one start"),
-        (replace(IMPLICIT, body=(FIELD, replace(BLOCK, unknowns=(n,)))), "needs unknowns, and one start"),
-        (replace(IMPLICIT, body=(FIELD, replace(BLOCK, starts=(k, k)))), "needs unknowns, and one start"),
+        (replace(IMPLICIT, body=(FIELD, EMPTY)), "needs unknowns. Each unknown"),
+        (replace(IMPLICIT, body=(FIELD, replace(BLOCK, unknowns=(n,)))), "needs unknowns. Each unknown"),
+        (replace(IMPLICIT, body=(FIELD, replace(BLOCK, starts=(k, k)))), "needs unknowns. Each unknown"),
     ],
 )
 def test_each_broken_rule_is_named(program, message):
