@@ -22,9 +22,8 @@ for each quantity and one column for each site.
 """
 
 EXISTS = "exists"
-"""The name of an array that states which neighbours exist. Its row k contains 1 for each site that has a
-neighbour with the index k, and 0 for all other sites. These numbers are computed from the position of the
-site and are not stored in memory.
+"""The name of an array of flags. Row k contains 1 for each site that has a neighbour with the index k, and 0
+for all other sites. The array is not stored in memory. Each flag is computed from the position of its site.
 """
 
 OWN = -1
@@ -67,17 +66,16 @@ class Sweep:
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice. It has one output for each load in
-      :attr:`read_outside`. If the neighbour of a load does not exist, the formulas use the value of this
-      output in place of the number from the neighbour.
-    - ``axis`` is used in a sweep over pairs of neighbouring sites. It is the direction of the pairs. The
-      second site of a pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the
-      second site.
+      :attr:`read_outside`. If the neighbour does not exist, the output replaces the number.
+    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
+      single sites it is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The second
+      half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
-    - ``measured`` is empty, or contains two rows for the stopping test. At each site, the first row contains
-      the largest change of the unknowns. The second row contains their largest absolute value.
+    - ``measured`` is empty, or contains two rows for the stopping test. For each site, the first row contains
+      the largest change of the unknowns. The second row contains the largest absolute value of the unknowns.
     - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.
-      Later sweeps read the sums.
+      The sweeps after this sweep can read the sum.
     """
 
     about: str
@@ -93,7 +91,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
-        # A load from the site itself has the value ``OWN``, which is not the index of a neighbour.
+        # ``OWN`` denotes the site itself, which is not a neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -103,13 +101,13 @@ class Sweep:
 
     @property
     def rows_read(self) -> tuple[Row, ...]:
-        """The rows that the sweep reads, each once."""
+        """The rows that the sweep reads, without duplicates."""
         # The numbers of the array ``EXISTS`` are computed, so they are not read from memory.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """The kernels of the sweep: ``kernel``, and ``outside`` if it is given."""
+        """The kernels of the sweep: ``kernel``, and ``outside`` if it is not None."""
         return (self.kernel,) if self.outside is None else (self.kernel, self.outside)
 
 
@@ -117,16 +115,18 @@ class Sweep:
 class SiteNewton:
     """The matrix of Newton's method for implicit equations u = g(u) on a chain of sites.
 
-    The matrix contains the derivatives of u - g(u), expanded to first order in h. It is block-tridiagonal.
-    For each site, ``kernel`` computes three blocks of ``size`` rows and columns: the derivatives with respect
-    to the unknowns of the left neighbour, of the site, and of the right neighbour. ``loads`` are the numbers
-    that the kernel reads. The symbol with the name ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
+    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. It is
+    block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and columns: the
+    derivatives with respect to the unknowns of the left neighbour, of the site, and of the right neighbour.
+    ``loads`` are the numbers that the kernel reads. ``exists[k]`` is the name of a symbol. The symbol is 1 if
+    neighbour k exists, and 0 otherwise.
 
-    ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace. Each row contains one number
-    for each site. Row ``matrix`` is the first row with entries of the three blocks, and row ``residual`` is
-    the first of ``size`` rows with residuals. If the chain is periodic, its last site is coupled to the first
-    one. Those ``size`` columns of the matrix that multiply the unknowns of the last site are then called the
-    border. Row ``border`` is the first row of the border.
+    ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
+
+    - The matrix occupies 3 ``size``^2 rows from row ``matrix`` on. The blocks of one site are contiguous.
+    - The residuals occupy ``size`` rows from row ``residual`` on.
+    - In a periodic chain, the columns for the unknowns of the last site are stored separately. They are
+      called the border, and occupy ``size``^2 rows from row ``border`` on.
     """
 
     kernel: Kernel
@@ -146,10 +146,10 @@ class SiteNewton:
         # For each site, ``kernel`` writes three matrix blocks with n^2 numbers each. The factorisation reads
         # the blocks and overwrites them with the factors.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
-        # In a periodic chain the last site is a neighbour of the first site. The matrix then has entries
-        # outside its three block diagonals.
+        # In a periodic chain the last site is a neighbour of the first site. Hence the matrix of the chain
+        # is not block-tridiagonal.
         if periodic:
-            # The linear equations are also solved with n other right-hand sides: the n columns of the matrix
+            # The linear equations are solved with n right-hand sides. These are the n columns of the matrix
             # that multiply the unknowns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
@@ -203,10 +203,8 @@ class SiteFlow:
 
     - ``sweep`` is the index of the sweep that computes the flow.
     - ``duration`` is the duration of the flow, divided by h.
-    - ``elapsed`` is used for a flow that depends on time. Its formulas are evaluated at the time t +
-      ``elapsed`` * h.
-    - ``colour`` is used in a sweep over pairs of sites. It is the parity (0 or 1) of the first site of each
-      pair.
+    - ``elapsed`` gives the time t + ``elapsed`` * h at which a flow that depends on time is evaluated.
+    - ``colour`` is the parity (0 or 1) of the first site of each pair in a sweep over pairs of sites.
     """
 
     sweep: int
@@ -242,9 +240,7 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace. It stores a state in ``size`` rows, and the values between the
-        sweeps in ``rows`` rows.
-        """
+        """The number of rows of the workspace. A state occupies ``size`` rows, other values ``rows`` rows."""
         return self.rows + self.size
 
     @property
@@ -284,8 +280,8 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The memory traffic of a step, excluding all iterations. The value is the pair (numbers read,
-        numbers written) for each site.
+        """The memory traffic of a step without the iterations for implicit equations. The value is the pair
+        (numbers read, numbers written) for each site.
         """
         # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
@@ -301,9 +297,9 @@ class SiteStep:
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
-        """Return how many numbers a step reads from memory or writes to memory for each site.
+        """Return the sum of the numbers that a step reads and writes in memory for each site.
 
-        For each block of implicit equations, ``sweeps`` contains the number of iterations.
+        ``sweeps`` contains the number of iterations for each block of implicit equations.
         """
         # ``n`` is the number of iterations for the block ``b``.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
@@ -318,9 +314,9 @@ class SiteStep:
             lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
             if sweep.sums:
                 names = ", ".join(name for name, _ in sweep.sums)
-                lines.append(f"  then the terms of {names} are added for all sites")
+                lines.append(f"  computes the sums over all sites: {names}")
         for block in self.blocks:
-            # The indices begin at 0, and the printed numbers at 1.
+            # Sweep k is printed as loop k + 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             # If the block consists of a single loop, the sentence is in the singular.
             if block.first == block.last:
@@ -350,8 +346,8 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     If a sweep reads a number several times, the number is counted once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, further loops over all sites evaluate the stopping test and the sums. They read the rows
-    # ``measured`` and the rows with the terms of the sums.
+    # After a sweep, separate loops evaluate the stopping test and the sums. The stopping test reads the rows
+    # ``measured``. Each sum reads the row with its terms.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

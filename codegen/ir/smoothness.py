@@ -1,9 +1,10 @@
-"""Selections in the formulas of a vector field. The field may not be smooth where a selection changes.
+"""Selections in the formulas of a vector field. They can make the field non-smooth.
 
 A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). It
 selects one of several formulas. The *side* of a selection is the index of the selected formula. For
-``choose`` and ``fabs`` the side is 1 if the first argument is positive, else 0. For a piecewise polynomial
-the side is the index of an interval. If the sides of all selections are fixed, the formulas are smooth.
+``choose`` and ``fabs`` the side is 1 if the first argument is positive, and 0 otherwise. For a piecewise
+polynomial the side is the index of an interval. If the sides are fixed, the field has formulas
+without selections.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ Sides = tuple[int, ...]
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return all selections in the expressions ``roots``.
 
-    Selections in the arguments of another selection come before that selection.
+    If a selection contains other selections in its arguments, these come first.
     """
     # ``walk`` yields the arguments of a node before the node.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
@@ -33,9 +34,10 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
     """Replace each selection in ``roots`` by one of its formulas.
 
-    ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
-    The result is a pair of lists: the expressions without selections, and expressions called margins. Where
-    all margins are positive, the selections select the formulas with the indices ``sides``.
+    ``nodes`` are the selections. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The
+    result is a pair of lists. The first list contains the expressions without selections. The second list
+    contains expressions called margins. At a point where all margins are positive, the new expressions have
+    the same values as ``roots``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -50,8 +52,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # ``evaluate`` replaces symbols by expressions, and simplifies the result. It is applied to a copy
-            # of the node whose arguments are symbols. These symbols are replaced by ``args``.
+            # A copy of the node gets symbols as arguments. ``evaluate`` replaces these symbols by ``args``
+            # and simplifies the result.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -79,14 +81,16 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # The tuples contain the formula of side 0 (x is not positive), then the formula of side 1. In
-    # ``choose(x, a, b)`` side 1 selects ``a``, so ``a`` and ``b`` are exchanged.
+    # Each tuple contains the formulas for x <= 0 and for x > 0, in this order. ``choose(x, a, b)`` equals
+    # ``a`` for x > 0, so the tuple for ``choose`` is (b, a).
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
 
 def features(roots: Sequence[Expr]) -> str:
-    """Return a text that lists the selections in expressions, or an empty text if there are none.
+    """Return a text that lists the selections and the jumps of angles in the expressions ``roots``.
+
+    The text is empty if there are none.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()
@@ -111,7 +115,7 @@ def features(roots: Sequence[Expr]) -> str:
 
 
 SHOWN = 3
-"""The largest number of selections that :func:`features` lists."""
+"""The largest number of entries in the list of :func:`features`."""
 
 
 def _argument(node: Expr) -> str:

@@ -1,4 +1,4 @@
-"""The operation for a step y -> M y, where the user gives the matrix M as a formula."""
+"""The step y -> M y with a matrix M that the user defines by a formula."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The point M y after a step. The scene (the user's problem) gives the matrix M as a formula in t and h.
+    """The operation that computes the point M y after a step of size h.
 
-    The arguments are the point y and the time t. ``step`` is the name of the formula in the scene.
+    The arguments are the point y and the time t. The scene (the user's problem) defines the matrix M by a
+    formula with the name ``step``.
     """
 
     step: str
@@ -27,7 +28,7 @@ class StatedStep(Operation):
     noun = "stated step{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the name of the formula for M."""
+        """Return the name of the operation, followed by ``step`` in parentheses."""
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:

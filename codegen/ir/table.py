@@ -1,8 +1,7 @@
-"""Piecewise polynomials of one variable, which a user's formula defines by a table of numbers.
+"""Piecewise polynomials of one variable. A user's formula defines them by a table of numbers.
 
-An expression calls a piecewise polynomial like the function ``sin``. The function is represented by an object
-that is a string (the name of the function) and also contains the coefficients. The name contains a digest of
-the coefficients.
+In an expression, a piecewise polynomial is a function like ``sin``. Its name contains a digest of the
+coefficients.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial in x.
+    """A piecewise polynomial in x. The string is the name of the function.
 
-    Between ``knots[k - 1]`` and ``knots[k]`` its value is the sum of ``rows[k][j]`` (x - ``bases[k]``)^j over
-    j. The entries of ``knots`` are in increasing order. There is one row more than there are knots. At a
-    knot, the polynomial of the interval that begins there is used.
+    The increasing numbers ``knots`` divide the real line into intervals. In interval k the value is the sum
+    of ``rows[k][j]`` (x - ``bases[k]``)^j over j. Interval k begins at ``knots[k - 1]`` and ends before
+    ``knots[k]``. The first interval has no beginning, and the last interval has no end.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -71,7 +70,7 @@ class PiecewisePolynomial(str):
         return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
 
     def derivative(self) -> PiecewisePolynomial:
-        """Return the derivative as a piecewise polynomial. At a knot it is the derivative from the right."""
+        """Return the derivative as a piecewise polynomial. Its value at a knot is the right derivative."""
         # The derivative of c (x - b)^j is j c (x - b)^(j-1). Entry j of a row thus becomes entry j - 1.
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
@@ -93,7 +92,7 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Return the value at x of the polynomial with the index ``place``, also outside its interval."""
+        """Return the value at x of the polynomial of interval ``place``. x may be outside this interval."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
         # The polynomial is evaluated by Horner's rule. The first value of ``total`` is the leading
         # coefficient.

@@ -41,24 +41,22 @@ coefficient n of the time.
 """
 
 PROBED = 3
-"""The number of Taylor coefficients that are computed to find series that are constant in time. A series is
-treated as constant if all of these coefficients except coefficient 0 are None. None represents a coefficient
-that is zero for all states.
-"""
+"""A series is treated as constant in time if coefficient n is zero in all states for 0 < n < ``PROBED``."""
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The expressions that are computed before the loop over the order n > 0, and the expressions in the
-    loop.
+    """The expressions of a loop over the order n = 1, 2, ....
 
-    - ``first`` are expressions that are computed before the loop. In the loop, symbols represent them.
-    - ``names`` are the names of these symbols.
+    - ``first`` are expressions that are computed before the loop.
+    - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
-    - ``sums`` are the names of the symbols for the inner sums.
+    - ``sums`` are the names of the symbols for the inner sums. An inner sum is the sum of a_j b_{n-j} over
+      0 < j < n for two series a and b.
+    - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the series in inner
+      sum k.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
     - ``following`` are the expressions for coefficient n + 1 of each coordinate.
-    - ``left[k]`` and ``right[k]`` are the expressions for coefficient n of the two series in inner sum k.
     """
 
     names: tuple[str, ...]
@@ -76,10 +74,10 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # This call also computes the coefficients that the method ``constant`` tests.
+    # ``extend`` computes all coefficients that the method ``constant`` needs. ``start`` keeps coefficient 1.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
-    # Let F be the derivative of a coordinate y. Coefficient n + 1 of y is 1/(n + 1) times coefficient n of F.
+    # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
     scale = space.sym(NEXT)
     following = []
     for number, slope in recurrence.slopes:
@@ -121,12 +119,11 @@ class _Loop:
     """Builds the expression for coefficient n of each series.
 
     - ``pairs`` are the pairs of series in the inner sums.
-    - ``first`` are expressions that are computed before the loop over n. In the loop they are represented by
-      symbols.
-    - ``known`` maps the id of a series to the expression of its coefficient n, or to None if the series is
-      constant in time.
-    - ``places`` contains the index in ``pairs`` of each pair of series.
-    - ``positions`` contains the index in ``first`` of each expression.
+    - ``first`` are expressions that are computed before the loop over n.
+    - ``known`` maps the id of a series to the expression of its coefficient n. If the series is constant in
+      time, the entry is None.
+    - ``places`` maps the ids of a pair of series to the index of the pair in ``pairs``.
+    - ``positions`` maps the id of an expression to the index of the expression in ``first``.
     """
 
     recurrence: Recurrence
@@ -138,12 +135,12 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # When the emitted loop begins with the order n, coefficient n of each coordinate is already known. A
-        # symbol represents it.
+        # Pass n of the emitted loop computes coefficient n + 1 of each coordinate. Coefficient n is known and
+        # is represented by a symbol.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # Coefficient n of the time is 1 for n = 1, and 0 for n > 1. A symbol represents this number.
+        # Coefficient n of the time is 1 for n = 1, and 0 for n > 1. ``LINEAR`` is the name of its symbol.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -156,7 +153,7 @@ class _Loop:
             if id(series) in self.known:
                 waiting.pop()
             elif self.constant(series):
-                # None means that coefficient n is zero for every n > 0.
+                # In ``known``, None represents a series that is constant in time.
                 self.known[id(series)] = None
             else:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
@@ -173,12 +170,10 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a symbol for ``x``, and add ``x`` to the expressions that are computed before the loop over
-        n. A constant is returned unchanged.
-        """
+        """Add ``x`` to ``first``, and return the symbol for ``x``. A constant is returned unchanged."""
         if x.op == "const":
             return x
-        # The symbol of ``x`` is numbered by the index of ``x`` in ``first``.
+        # The name of the symbol contains the index of ``x`` in ``first``.
         if x.id not in self.positions:
             self.positions[x.id] = len(self.first)
             self.first.append(x)
@@ -197,17 +192,16 @@ class _Loop:
         """Return coefficient n of the product of the series a and b."""
         x, y = self.known[id(a)], self.known[id(b)]
         if x is None or y is None:
-            # If one series is constant, coefficient n of the product has only one term.
+            # If one series is constant, coefficient n of the product is the constant times coefficient n of
+            # the other series.
             constant, other = (a, y) if x is None else (b, x)
             return self.value(constant.term(0)) * _known(other)
-        # The terms a_0 b_n and a_n b_0 are added to the inner sum.
+        # The inner sum lacks the terms j = 0 and j = n, which are a_0 b_n and a_n b_0.
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n.
-
-        This is the inner sum (0 < j < n) of a and b, plus a_n b_0.
-        """
+        """Return the sum of a_j b_{n-j} over 0 < j <= n."""
+        # The last term is a_n b_0. The other terms are the inner sum of a and b.
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -217,7 +211,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
-                    # Coefficient n of a constant operand is zero. It is represented by None.
+                    # If an operand is constant, its coefficient n is zero, and its entry is None.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -251,8 +245,8 @@ class _Loop:
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # In the recurrence of p = a^e, the product a_j p_{n-j} has the factor (e j - (n - j))/n. This
-                # factor equals (e + 1) j/n minus 1, so two sums are formed. The first sum contains j a_j, and
-                # j a_j is coefficient j of ``slope``.
+                # factor is (e + 1) j/n - 1. Hence the sum is (e + 1)/n times the sum of j a_j p_{n-j}, minus
+                # the sum of a_j p_{n-j}. Coefficient j of ``slope`` is j a_j.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -264,7 +258,8 @@ class _Loop:
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
-                # The value of ``test`` at the beginning of the step selects the series a or b for all orders.
+                # The sign of ``test`` at the beginning of the step selects a or b. The choice is the same
+                # for all orders.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
@@ -279,15 +274,15 @@ class _Loop:
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
-                # The logarithm l satisfies a l' = a'. Hence n a_n is n a_0 l_n plus the sum of j l_j a_{n-j}
-                # over 0 < j < n.
+                # The logarithm l satisfies a l' = a'. Hence l_n = (a_n - z/n)/a_0, where z is the sum of
+                # j l_j a_{n-j} over 0 < j < n. ``inverse`` is 1/a_0.
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
         raise AssertionError(type(series))
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficient n occurs in the formula for coefficient n of ``series``."""
+    """Return the operands whose coefficient n is needed for coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

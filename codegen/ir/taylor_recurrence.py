@@ -1,9 +1,9 @@
 """Taylor coefficients in time of the solution of y' = F(y, t).
 
 Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). The coefficients of
-y follow from the coefficients of F one by one. Each product of two series is a convolution, which is
-expensive. Therefore a product of powers of the same expression is written as one power, for example x sqrt(x)
-as x^(3/2). Quotients and roots of powers are treated in the same way.
+y follow from the coefficients of F in the order of their index. Each product of two series is a convolution,
+which is expensive. Therefore a product or quotient of powers of the same expression is rewritten as one
+power. For example, x sqrt(x) becomes x^(3/2). An odd power of a root also becomes one power.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
-        # The series of a node c x^e is built from the series of x.
+        # The node is c x^e, and ``base`` is x. The series of the node is built from the series of x.
         if base is not node:
             return (base,)
         if node.op == "div":
@@ -116,9 +116,8 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # The node is an integer power of c x^e. If e = 1, the node is not rewritten, because its
-                # series is computed by products. Otherwise, for example for a power of a root, the node is
-                # rewritten as one power of x.
+                # The node is an integer power of c x^e. For e = 1 its series needs only products, so the node
+                # is not rewritten. An example with another e is sqrt(x)^3, which becomes x^(3/2).
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -126,15 +125,15 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
-                # The node is the product or quotient of c x^e and d y^f. It is rewritten as one power only if
-                # x and y are the same expression, and e or f is not 1.
+                # The node is the product or quotient of c x^e and d y^f. It becomes one power if x and y are
+                # the same expression. For e = f = 1 it is not rewritten.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # The recurrence of a power x^e divides by x, and x may be zero. For e = 0, 2, 3, ... the node is
-        # therefore not rewritten as a power.
+        # For the exponents 0, 2, 3, ... the series needs no recurrence for powers. Such a node is not
+        # rewritten.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -196,7 +195,7 @@ class _Builder:
         """
         if exponent == 1:
             return a
-        # A power that was requested before has the same key. Its series is then returned again.
+        # The series of a power is built once. The next call with the same key returns the same series.
         key = "power", base.id, exponent
         if key not in self.shared:
             if exponent == Fraction(1, 2):
@@ -213,8 +212,8 @@ class _Builder:
     def integer_power(self, a: Series, n: int) -> Series:
         """Return the series a^n for n >= 1, computed by repeated squaring."""
         result = a
-        # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because the first value
-        # of ``result`` already accounts for it.
+        # ``bin(n)`` begins with "0b" and the leading bit 1. The first value of ``result`` is a, the power for
+        # the leading bit. The loop runs over the other bits.
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
@@ -265,8 +264,8 @@ class _Builder:
                 self.shared[key] = result
             case "asin" | "acos":
                 result = Antiderivative(domain, name, a, slope)
-                # The derivative of asin at a is (1 - a^2)^(-1/2). The derivative of acos is -(1 -
-                # a^2)^(-1/2).
+                # The derivative of asin at a is (1 - a^2)^(-1/2). The derivative of acos is the negative of
+                # this.
                 root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
                 result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
                 self.shared[key] = result
@@ -283,9 +282,9 @@ class Recurrence:
     """Computes the power series in s of the solution y(t + s * ``scale``) of a differential equation.
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
-    - ``roots`` are the expressions of the derivatives of the coordinates. There may be fewer derivatives than
-      coordinates. Then the caller must compute the coefficients of the last coordinates, and must append the
-      coefficients of all coordinates by :meth:`append`.
+    - ``roots`` are the expressions of the derivatives of the coordinates. If there are fewer derivatives than
+      coordinates, the derivatives belong to the first coordinates. The caller must then compute the
+      coefficients of the other coordinates, and must use :meth:`append` in place of :meth:`extend`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
@@ -299,7 +298,7 @@ class Recurrence:
         scale: Scalar,
     ) -> None:
         self.domain, self.scale = domain, scale
-        # With ``closed=False``, the further coefficients of a coordinate are added later by :meth:`append`.
+        # ``closed=False`` means that :meth:`append` adds coefficients to the series.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
         # The power series of the time in s is t + s * ``scale``, so it has two coefficients.
         self.time = Given(domain, values[TIME], scale)
@@ -312,7 +311,7 @@ class Recurrence:
     def extend(self, degree: int) -> list[list[Coefficient]]:
         """Return the coefficients 0, ..., degree of each coordinate.
 
-        None represents a coefficient that is zero for all states.
+        A coefficient that is zero for all states is represented by None.
         """
         # All coordinates have the same number of known coefficients. This number is read from the first
         # coordinate.
@@ -343,11 +342,11 @@ class Recurrence:
     def series(self, root: Expr) -> Series:
         """Return the power series of the expression ``root``.
 
-        It may contain the coordinates, the time and all symbols in ``values``.
+        ``root`` may contain the coordinates, the time and all symbols in ``values``.
         """
         return self.builder.of(root)
 
 
 def _apart(series: Series) -> tuple[Number, Series]:
-    """Return the numeric factor of a series, and the series without this factor."""
+    """Return a number c and a series a such that ``series`` is c times a."""
     return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

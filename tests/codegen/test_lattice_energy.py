@@ -121,5 +121,5 @@ def test_the_sums_of_a_step_are_explained():
     assert step is not None
     lines = step.explanation()
     # |eta|^2 is known before the energy of the new state.
-    sums = [line for line in lines if "are added" in line]
-    assert sums == [f"  then the terms of {name} are added for all sites" for name in ("sum_2", "sum")]
+    sums = [line for line in lines if "sums over all sites" in line]
+    assert sums == [f"  computes the sums over all sites: {name}" for name in ("sum_2", "sum")]
