@@ -84,12 +84,14 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword arguments for a call of the emitted module. The ``with`` block makes this call.
+        """Yield the keyword arguments for a call of the emitted module. The caller makes this call
+        inside a ``with`` block.
 
-        If the step solves equations, the argument is ``statistics``. Otherwise there is no argument. At the
-        end of the block, the counts in ``statistics`` are added to the statistics of the caller.
+        If the step solves equations, the only keyword argument is ``statistics``. Otherwise there is none. At
+        the end of the ``with`` block, the counts in ``statistics`` are added to ``begun.statistics``.
 
-        If the module raises its own exception ``StepFailed``, :class:`codegen.arrival.StepFailed` is raised.
+        If the emitted module raises its exception ``StepFailed``, this function raises
+        :class:`codegen.arrival.StepFailed`.
         """
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
@@ -97,7 +99,7 @@ class InterpretedIntegrator(Integrator):
         except self.module.StepFailed as failure:
             failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
             if hasattr(failure, "t"):
-                # ``failure`` does not contain the number of rejected steps, so ``arrival`` contains 0.
+                # The number of rejected steps is not known here. It is set to 0.
                 state, status = failed.state, failed.status
                 failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
             raise failed from None

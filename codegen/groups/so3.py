@@ -37,16 +37,15 @@ class SO3(
     """Rotation matrices of R^3, stored row by row.
 
     The hat map and the dot product identify so(3) and so(3)* with R^3. In the formulas below
-    c_k are the values of the Stumpff functions at x.x.
+    c_k is the value of the Stumpff function with the index k at x.x.
 
     - The bracket is [x, y] = x cross y, and ad*_x mu = -x cross mu.
     - The adjoint action is Ad_g x = g x, and Ad*_g mu = g^T mu.
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). It
-    rotates two columns of g, and the cross product of the rotated columns is the column with the index
-    ``dependent``.
+    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). Two
+    columns of g are rotated. The cross product of the rotated columns is the column ``dependent``.
     """
 
     name = "SO(3)"
@@ -158,11 +157,10 @@ class SO3(
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x = -ad_x replaces
-        ad_x.
+        """Return W v, where W is the product ``word`` of functions of ad_x. If ``dual`` is true,
+        ad*_x = -ad_x replaces ad_x.
 
-        On so(3), ad_x^3 is equal to -(x.x) ad_x. Therefore ``word`` is equal to a polynomial 1 + b ad_x + c
-        ad_x^2 with numbers b and c.
+        On so(3), ad_x^3 = -(x.x) ad_x. Therefore W = 1 + b ad_x + c ad_x^2 with numbers b and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -181,11 +179,12 @@ class SO3(
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        Here f is a scalar, W is a product of functions of ad_x, and v is a vector. The sum is computed as A +
-        x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
+        Here f is a scalar, W is a product of functions of ad_x, and v is a vector. If ``dual`` is true,
+        ad*_x = -ad_x replaces ad_x. The sum is computed as A + x cross (B + x cross C), where A, B and C are
+        linear combinations of the vectors v.
 
-        If ``total`` is given, total(indices) must return the sum of f v over the terms with these indices. It
-        may compute this sum by a shorter formula.
+        If ``total`` is given, ``total(indices)`` must return the sum of f v over the terms with these
+        indices. A caller can thus provide a shorter formula for this sum.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -218,22 +217,22 @@ class SO3(
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x): each row of g is rotated about x by the angle -|x|."""
+        """Return g exp(x). Each row r of g becomes exp(-x) r."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g hat(x), the derivative of g exp(eps x) at eps = 0.
 
-        Row i of the result is the cross product of row i of g with x.
+        Each row r of g becomes r cross x.
         """
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules for products of entries of the first row.
 
-        The product g_0j g_0k is replaced by delta_jk - g_1j g_1k - g_2j g_2k for j <= k, where delta_jk is 1
-        for j = k and 0 otherwise.
+        For j <= k, the product g_0j g_0k is replaced by delta_jk - g_1j g_1k - g_2j g_2k. Here delta_jk is 1
+        if j = k, and 0 otherwise.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
@@ -253,8 +252,8 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # For short steps, the terms with c1 and c2 are much smaller than y. They are added to each other
-        # first, because each sum that includes y has a larger rounding error.
+        # For short steps, y is much larger than the terms with c1 and c2. The two small terms are added
+        # first, so only one addition has a rounding error proportional to y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -269,8 +268,8 @@ class SO3(
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return exp(x) mu + dexp_x n.
 
-        If the attribute ``dependent`` is the index of a column, the result is a combination of mu, n and
-        their cross products with x. The matrix exp(x) is then not computed.
+        If the attribute ``dependent`` is the index of a column, the matrix exp(x) is not computed. The result
+        is then a linear combination of mu, n and their single and double cross products with x.
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
@@ -297,10 +296,9 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return one set of indices of entries for each row and each column of the matrix.
+        """Return the indices of the entries of each row, and then of each column.
 
-        The entries of a row are determined by the other two rows: row i is the cross product of the rows i +
-        1 and i + 2, counted modulo 3. The same rule holds for columns.
+        Each row is the cross product of the next two rows in cyclic order. The same is true for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
@@ -308,8 +306,8 @@ class SO3(
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Return g after one row or one column is computed from the other two.
 
-        ``missing`` contains the indices of the entries of this row or column. Row i is the cross product of
-        the rows i + 1 and i + 2, counted modulo 3. The same rule holds for columns.
+        ``missing`` contains the indices of the entries of this row or column. A row is the cross product of
+        the next two rows in cyclic order. The same is true for columns.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -350,8 +348,8 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix of the quaternion q, given the diagonal of the matrix. ``double`` is
-        twice the imaginary part of q.
+        """Return |q|^2 times the rotation matrix of the quaternion q. ``diagonal`` is the diagonal of the
+        result, and ``double`` is twice the imaginary part of q.
         """
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c

@@ -14,9 +14,8 @@ class SU2(S3):
     """Unitary 2 x 2 matrices of determinant 1, stored as unit quaternions, real part first.
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
-    matrices. The basis of the algebra is -i sigma_k/2. As in S^3, the group elements are unit quaternions.
-    The bases of the two algebras differ: an element x of this algebra corresponds to the quaternion x/2 in
-    the algebra of S^3. In the formulas below z = x.x, and c_k are the Stumpff functions.
+    matrices. The basis of the algebra is -i sigma_k/2. An element x of this algebra is the quaternion
+    x/2 in the algebra of S^3. In the formulas below z = x.x, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x cross y.
     - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2). The quaternion exp(x) rotates vectors about x by
@@ -39,11 +38,11 @@ class SU2(S3):
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y: twice the result of :meth:`S3.dcayinv` for the quaternions x/2 and y/2."""
+        """Return dcay^{-1}_x y. For x/2 and y/2, :meth:`S3.dcayinv` returns half of this vector."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x: twice the result of :meth:`S3.sandwich` for the quaternions x/2 and y/2."""
+        """Return x y x. For x/2 and y/2, :meth:`S3.sandwich` returns half of this vector."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -70,7 +69,7 @@ class SU2(S3):
         return S3.left_velocity(self, d, g, _half(d, x))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x such that v = x.g: twice the imaginary part of the product of v and the conjugate of g."""
+        """Return x such that v is the quaternion product (0, x/2) g."""
         return tuple(d.rational(2) * a for a in S3.rate(self, d, v, g))
 
 

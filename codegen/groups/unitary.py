@@ -26,8 +26,8 @@ class Unitary(RotationGroup):
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
         """Compute the basis of the algebra, and initialise the group with it.
 
-        ``diagonal`` describes the diagonal matrices of the basis. For each of them it contains a table from
-        (row, column) to the imaginary part of the entry.
+        ``diagonal`` contains one table for each diagonal matrix of the basis. The table maps (row, column) to
+        the imaginary part of the entry.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
@@ -89,8 +89,8 @@ class SU(Unitary):
 def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
     """Return the real 2n x 2n matrix of a complex n x n matrix.
 
-    ``real`` and ``imaginary`` contain the non-zero real and imaginary parts of the entries. The keys are the
-    positions (row, column) of the entries.
+    The table ``real`` maps (row, column) to the real part of the entry, if the real part is not zero. The
+    table ``imaginary`` does the same for the imaginary parts.
     """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))

@@ -1,4 +1,4 @@
-"""A domain that converts a user's formulas to scalar formulas, also products of matrices."""
+"""A domain that converts products and commutators of matrices to scalar formulas."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for the values of functions of time. The new domain and ``domain``
-        # share this table, so the value of a function at a time t has only one symbol.
+        # ``samples`` contains the symbols for the values of functions of time. The table of ``domain`` is
+        # used here, so the value of a function at a time t has only one symbol.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function. If it is a product or commutator of matrices, the results
-        are scalar formulas. All other functions are treated as in :class:`ExprDomain`.
+        """Return the results of a vector function. The results of products and commutators of matrices are
+        scalar formulas. The results of all other functions are the same as in :class:`ExprDomain`.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

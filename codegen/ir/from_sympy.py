@@ -32,11 +32,10 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""A table from names of functions to arguments. Each of these functions may be infinite or undefined, but its
-value at the argument in the table is finite.
+"""A table from names of functions to arguments. The value of the function at this argument is finite.
 
-All branches of a Piecewise formula are evaluated. Where a branch is not selected, its functions are evaluated
-at the arguments in this table.
+All branches of a Piecewise formula are evaluated. In a branch that is not selected, the argument in this
+table replaces the argument of the function. The function might otherwise be infinite or undefined.
 """
 
 
@@ -45,7 +44,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
     Rational numbers stay exact. A float becomes the shortest decimal that rounds to this float, so 0.1
     becomes 1/10. :class:`SceneError` is raised if a subexpression is not supported. The message names the
-    subexpression and ``where``, the place of the formula.
+    subexpression and the place of the formula, ``where``.
     """
     import sympy
 
@@ -62,8 +61,8 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 class _Reader:
     """Converts one formula. Each subexpression is converted only once, even if it occurs several times.
 
-    While a branch of a Piecewise formula is converted, ``guard`` is an expression that is positive exactly
-    where the branch is selected. Outside of Piecewise formulas ``guard`` is None.
+    During the conversion of a branch of a Piecewise formula, ``guard`` is an expression. Its value is 1 if
+    the branch is selected, and -1 otherwise. Outside of Piecewise formulas ``guard`` is None.
     """
 
     space: Space
@@ -73,8 +72,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Convert a sympy expression to a node."""
-        # ``known`` contains the results of earlier conversions. A branch of a Piecewise formula has a guard,
-        # and the result depends on it. The guard is therefore part of the key.
+        # ``known`` contains the results of earlier conversions. Each result depends on the guard, so the
+        # guard is part of the key.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -104,8 +103,8 @@ class _Reader:
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # atan2(y, x) is not differentiable at x = y = 0. If the formula is part of a branch of a
-            # Piecewise formula, x is replaced by 1 where this branch is not selected.
+            # atan2(y, x) is not differentiable at x = y = 0. In a branch of a Piecewise formula that is not
+            # selected, 1 replaces x.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
@@ -136,13 +135,14 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
-        equals the number ``safe`` elsewhere.
+        """Return an expression for an argument x of a function in a branch of a Piecewise formula.
 
-        If x is constant, or if no branch is being converted, the result is x.
+        If the branch is selected, the value of the expression is x. Otherwise the value is ``safe``.
+
+        If x is constant, the result is x. Outside of Piecewise formulas, the result is also x.
         """
-        # A branch is evaluated even where it is not selected. At such a point a root, a quotient or a
-        # derivative could be a NaN. ``safe`` is an argument at which this cannot happen.
+        # All branches are evaluated. In a branch that is not selected, a root, a quotient or a derivative
+        # could be a NaN. At the argument ``safe`` it is finite.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -156,7 +156,7 @@ class _Reader:
             case "sign":
                 return sign(self.node(e.args[0]))
             case "Heaviside":
-                # The second argument of Heaviside is its value at x = 0. By default, sympy inserts 1/2.
+                # The second argument is the value of Heaviside at x = 0. By default, sympy inserts 1/2.
                 x, middle = map(self.node, e.args)
                 return positive(x)(space.one, positive(-x)(space.zero, middle))
             case "Min":
@@ -178,22 +178,22 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is true where this outer
-        # branch is selected and the conditions of all earlier branches of ``e`` are false.
+        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is the condition that the
+        # outer branch is selected, and that all earlier conditions of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
             self.guard = outer
             holds = read_condition(condition, self.node, self.where)
-            # The guard is 1 where this branch is selected, and -1 elsewhere.
+            # The guard is 1 if this branch is selected, and -1 otherwise.
             self.guard = both(rest, holds)(self.space.one, -self.space.one)
             branches.append((holds, self.node(formula)))
             rest = both(rest, negation(holds))
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch. The first condition must therefore be the
-        # outermost choice, which is constructed last.
+        # In sympy, the first true condition selects the branch. The loop ends with the first condition, so
+        # this condition is the outermost choice.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -212,8 +212,7 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # The factors of the divisor are multiplied first, so x/(y z) becomes a formula with one division. The
-        # product of x, 1/y and 1/z would contain two divisions.
+        # The formula x/(y z) contains one division. The product of x, 1/y and 1/z would contain two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -225,16 +224,16 @@ class _Reader:
             # An exponent such as 0.5 is converted to the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # A negative power is infinite for the base 0. If the power is part of a branch of a Piecewise
-            # formula, the base becomes 1 where this branch is not selected.
+            # A negative power is infinite for the base 0. In a branch of a Piecewise formula that is not
+            # selected, 1 replaces the base.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # If the power is part of a branch of a Piecewise formula, the base becomes 1 where this branch is
-            # not selected. The root and its derivative are finite at 1.
+            # In a branch of a Piecewise formula that is not selected, 1 replaces the base. The root and its
+            # derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
-            # For odd n = 2 m + 1 > 0, x^(n/2) = x^m sqrt x. All half-integer powers of x share the root sqrt
-            # x.
+            # If n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2. If n < 0, the result is the
+            # reciprocal of x^(-n/2).
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(

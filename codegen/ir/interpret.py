@@ -22,8 +22,8 @@ Env = dict[Var, Value]
 State = dict[str, Value]
 """A table from the names of the inputs or outputs of a program, such as ``q``, to their values."""
 
-# For the configuration q, ``TO_BODY`` maps the momentum mu in the space frame to the momentum Ad*_q mu in the
-# body frame. ``TO_SPACE`` is the inverse map.
+# ``TO_BODY`` converts the momentum mu in the space frame to the body frame. The momentum in the body frame is
+# Ad*_q mu, where q is the configuration. ``TO_SPACE`` is the inverse conversion.
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
@@ -52,20 +52,20 @@ def interpret(
       tuple of scalars. A matrix is stored row by row.
     - ``limit`` is the largest number of iterations (sweeps) for each block. A block is a system of equations.
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
-    - ``solutions`` is a table of the values at which fixed-point iteration begins: the keys are unknowns.
-      After the step the table contains the solutions of all blocks. Composition methods ignore this table.
-    - ``near`` contains one list of scalars for each block, at which Newton's method begins. If ``near`` is
-      given, fixed-point iteration is not tried. After the step ``near`` contains the solutions.
+    - ``solutions`` is a table from unknowns to values. Fixed-point iteration begins at these values. After
+      the step the table contains the solutions of all blocks. Composition methods ignore this table.
+    - ``near`` contains one list of scalars for each block. Newton's method begins at these scalars, and
+      fixed-point iteration is not tried. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, each result of an operation is replaced by
-    ``computed(name, value)``, where ``name`` is the name of its variable and ``value`` is the result.
+    If ``domain`` has a method ``computed``, the value x of each computed variable is replaced by
+    ``computed(name, x)``. Here ``name`` is the name of the variable.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
     block.
     """
     if program.frame == BODY:
-        # The same statements are executed, but ``mu`` is now the momentum in the body frame. It is converted
-        # before the step and after the step.
+        # The momentum ``mu`` is converted to the body frame before the step, and to the space frame after the
+        # step. The statements of the step are the same in both frames.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -88,8 +88,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is used as a queue. The first entry belongs to this block. It is removed, and the
-            # solution is appended. After the last block, the solutions are in the order of the blocks.
+            # The first list in ``near`` contains the initial values for this block. This list is removed, and
+            # the solution of the block is appended.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -106,13 +106,12 @@ def _fixed_point_first(
     expected: Env,
     newton: bool,
 ) -> None:
-    """Solve a system of equations by fixed-point iteration, or by Newton's method if the fixed-point
-    iteration fails and ``newton`` is true.
+    """Solve a system of equations by fixed-point iteration, which needs no difference quotients.
 
-    The fixed-point iteration is tried first, because it needs no difference quotients.
+    If the fixed-point iteration fails and ``newton`` is true, Newton's method is used.
     """
-    # ``patience`` is the number of sweeps after which Newton's method replaces the fixed-point iteration. If
-    # Newton's method is not permitted, all ``limit`` sweeps are used.
+    # Newton's method begins after at most ``patience`` sweeps of the fixed-point iteration. Without Newton's
+    # method, ``limit`` sweeps are permitted.
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
         _iterate(block, env, domain, run, min(limit, patience), expected)
@@ -134,10 +133,12 @@ def outward(
 ) -> tuple[Scalar, ...]:
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
-    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
-    step with the body momentum, which is converted to the space momentum. The result is mu plus the
-    difference of the two space momenta. Rounding errors make q slightly non-orthogonal, but the effect
-    nearly cancels in this difference.
+    ``state`` contains the space momentum mu before the step. ``ends`` are two states with the body
+    momentum: the state before the step and the state after the step. Both body momenta are converted to
+    space momenta. The result is mu plus the difference of these space momenta.
+
+    Rounding errors make q slightly non-orthogonal. The resulting errors of the two space momenta nearly
+    cancel in the difference.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -178,8 +179,8 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # If ``expected`` contains a value of the unknown, such as the solution in an earlier step, the
-        # iteration begins at this value. Otherwise it begins at the value of the variable ``start``.
+        # If ``expected`` contains a value of the unknown, the iteration begins at this value. Otherwise the
+        # iteration begins at the value of the variable ``start``.
         env[unknown] = expected.get(unknown, env[start])
     # ``size`` is the size of the last change of the unknowns. It is None before the first change.
     size: Scalar = None
@@ -188,8 +189,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test for convergence comes before the update of the unknowns. After convergence, all values in
-        # ``env`` were therefore computed from the present values of the unknowns.
+        # The test for convergence comes before the update of the unknowns. After a successful test, ``env``
+        # contains the unknowns and the values that were computed from them.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -199,8 +200,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # A domain may forward its attributes to another domain. Therefore the test is for the method
-    # ``increment``, and not for a class.
+    # The class of the domain is not tested, because some domains forward their attributes to another domain.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -215,9 +215,10 @@ def _correct(
 ) -> list[Scalar]:
     """Solve the equations u = g(u) of ``block`` by Newton's method with difference quotients.
 
-    The iteration begins at the values ``near``, or at the values of ``block.starts`` if ``near`` is None. The
-    result is the list of all scalars of the solution u. If the domain has a method ``rounded``, the values
-    g(u) are rounded by this method.
+    The iteration begins at the values ``near``. If ``near`` is None, the iteration begins at the values of
+    ``block.starts``. The result is the list of all scalars of the solution u.
+
+    If the domain has a method ``rounded``, this method rounds the values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
     # The scalars of all unknowns form one vector, because the equations depend on one another. ``widths``
@@ -244,32 +245,31 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
-            # Only the scalar j is displaced by ``step``.
+            # Only the scalar with the index j is changed.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # ``slopes`` is column j of g'(u). The matrix of Newton's method is 1 - g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
-        # The correction d solves (1 - g') d = g(u) - u.
+        # For the equations u = g(u), the correction d of u solves (1 - g'(u)) d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # A change of the size of ``increment`` (about the square root of the rounding unit) is small
-            # enough, because one further Newton step follows and approximately squares the error.
+            # The iteration has converged if each change is at most ``increment``, which is about the square
+            # root of the rounding unit. One further Newton step then approximately squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The last evaluation of the body was at a displaced point. The body is evaluated once more, so
-            # that ``env`` contains the values at the solution.
+            # This call writes the values at the solution to ``env``.
             images(now)
             if sharp:
                 return now
-            sharp = True  # one further Newton step reduces the remaining error
+            sharp = True  # the next Newton step is the last one
     raise NotConverged(_unsettled(block, limit, size))
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return a message about the iteration of ``block``, which did not converge. ``change`` is the last
-    change of the unknowns.
+    """Return a message: the iteration of ``block`` did not converge. ``change`` is the last change of the
+    unknowns.
     """
     # The message shows two digits of the change, so a double is precise enough.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
@@ -284,8 +284,8 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # For small h the matrix is close to the identity, and no pivot is small. For large h a pivot may be
-        # small, so rows are exchanged.
+        # Row exchanges avoid small pivots. For small h they are not necessary, because the matrix is close to
+        # the identity.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
