@@ -1,13 +1,14 @@
-"""Step programs: one step of an integrator, written as a list of operations such as exp, Ad or the group
-product. The operations do not depend on the coordinates of the group.
+"""Step programs: a step program describes one step of an integrator by a list of operations.
 
-Each variable is assigned only once. Equations that depend on one another form a :class:`Solve` block, the
-system u = g(u). The body of a block computes the values g(u), called images, from the unknowns u. A method is
-first translated to one block that contains the equations of all its stages. Compiler passes then find stages
-that can be solved one after the other.
+Examples of operations are exp, Ad and the group product. The operations do not depend on the coordinates of
+the group. Each variable is assigned only once.
 
-A program has no branches that depend on data. Its only loops are the iterations of blocks. All group elements
-belong to the same group.
+Equations that depend on one another form a :class:`Solve` block u = g(u). The statements of the block compute
+g(u) from the unknowns u. If a method has stages, its translation contains one block with the equations of all
+stages. Compiler passes then find stages that can be solved one after the other.
+
+The statements contain no branches. Their only loops are the iterations that solve blocks. All group elements
+are elements of the same group.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # If x = c y with a coefficient c and L is a linear map, compiler passes replace L(x) by c L(y).
+    # Compiler passes use this property to replace L(c y) by c L(y), where L is a linear map.
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a linear combination with one term: a coefficient times a value."""
@@ -57,7 +58,7 @@ class Assign:
 
     @classmethod
     def of_terms(cls, target: Var, terms: Iterable[tuple[Coefficient, Var]]) -> Assign:
-        """Return the assignment of a linear combination of ``terms`` to ``target``."""
+        """Return the assignment target = sum of coefficient * variable over ``terms``."""
         pairs = tuple(terms)
         return cls((target,), Linear(tuple(c for c, _ in pairs)), tuple(v for _, v in pairs))
 
@@ -69,16 +70,17 @@ class Assign:
 
 @dataclass(frozen=True)
 class Solve:
-    """The system of equations u = g(u) for the unknowns u. The statements ``body`` compute the images g(u).
+    """A block: the system of equations u = g(u) for the unknowns u.
 
     - ``label`` is the name of the block in messages.
-    - ``starts`` are the variables with the first values of the unknowns.
+    - ``starts`` are the variables with the initial values of the unknowns.
+    - ``body`` contains the statements that compute g(u).
     - ``images`` are the variables with the values g(u), one for each unknown.
-    - ``residuals`` is empty, or contains one residual for each unknown. A residual is zero at the solution,
-      and is about as large as the error of the corresponding unknown.
+    - ``residuals`` is empty, or contains one residual for each unknown. At the solution, the residuals are
+      zero. Elsewhere each residual is about as large as the error of the corresponding unknown.
 
-    Statements after the block may use the variables of the body. After the block, these variables have the
-    values that belong to the solution.
+    After the block, the variables of the body have their values at the solution. Later statements may use
+    these values.
     """
 
     label: str
@@ -102,21 +104,23 @@ embedded solution. The embedded solution is used only to estimate the error of t
 
 
 POWERS = "power"
-"""The prefix of the names of the outputs ``power1``, ``power2``, ... of a continuous extension (dense
-output). These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta) in the Lie
-algebra. The solution at t + theta h is exp(sigma(theta)).y, where y is the state at the time t.
+"""The prefix of the output names ``power1``, ``power2``, ... of a continuous extension (dense output).
+
+These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta). The coefficients are
+elements of the Lie algebra. Let y be the state at the time t. The solution at the time t + theta h is then
+approximately exp(sigma(theta)).y.
 """
 
 
 SPACE, BODY = "space", "body"
-"""The values of :attr:`Program.frame`: the statements use the momentum in the space frame or the body frame.
-"""
+"""The values of :attr:`Program.frame`, the frame of the momentum in the statements."""
 
 
 @dataclass(frozen=True)
 class Substep:
-    """A substep of a composition method. Its length is ``fraction`` * h, and it begins at the time t +
-    ``offset`` * h.
+    """A substep of a composition method, in a step from t to t + h.
+
+    The length of the substep is ``fraction`` * h. The substep begins at the time t + ``offset`` * h.
     """
 
     fraction: Number
@@ -125,14 +129,14 @@ class Substep:
 
 @dataclass(frozen=True)
 class Program:
-    """One step of an integrator: its inputs, its statements, and its outputs, which form the new state.
+    """One step of an integrator: its inputs, its statements, and its outputs.
 
-    An output such as q has the same name as the input that it replaces. If ``substeps`` is not empty, the
+    An output with the name of an input is the new value of this input. If ``substeps`` is not empty, the
     statements are executed once for each substep, in the order of ``substeps``.
 
-    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. They
-    compute the new position q' and the new body momentum m'. The new momentum is then computed as
-    mu' = mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
+    If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. The
+    statements compute the new values q' and m'. The new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
+    The effect of rounding errors in q nearly cancels in this difference.
     """
 
     name: str
@@ -143,7 +147,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield all assignments in the order of the text, including those inside blocks of equations."""
+        """Yield all assignments in the order of the statements, including the assignments inside blocks."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement
@@ -170,7 +174,7 @@ class Program:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())
                 continue
-            # A block is printed in three parts: its first values, its body, and its equations.
+            # The text of a block has three parts: initial values, assignments, and the equations u = g(u).
             pairs = zip(statement.unknowns, statement.starts, strict=True)
             lines.append(
                 f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs)
@@ -185,7 +189,7 @@ class Program:
 
 @dataclass
 class Builder:
-    """Builds a list of assignments. Each method creates a variable and appends an assignment to the list."""
+    """A list of assignments. Methods such as :meth:`exp` append an assignment and return its target."""
 
     taken: set[str] = field(default_factory=set)
     """The variable names that are in use."""
@@ -198,13 +202,13 @@ class Builder:
         while candidate in self.taken:
             n += 1
             candidate = f"{name}_{n}"
-        # The name stays reserved, because each variable of a program is assigned only once.
+        # No later variable gets this name, because each variable of a program is assigned only once.
         self.taken.add(candidate)
         return Var(candidate, kind)
 
     def add(self, operation: Operation, target: str, *args: Var) -> Var:
         """Append target = operation(args) for an operation with one result."""
-        # The kind of the new variable is the kind of the only result.
+        # The new variable has the kind of the result.
         (kind,) = operation.signature()[1]
         var = self.fresh(target, kind)
         self.body.append(Assign((var,), operation, args))
@@ -227,21 +231,22 @@ class Builder:
         return self.add(Act(), target, g, y)
 
     def adjoint(self, target: str, g: Var, v: Var, *, inverse: bool = False) -> Var:
-        """Append target = Ad_g v, or Ad*_g v for v in the dual. If ``inverse`` is true, g^-1 replaces g."""
+        """Append target = Ad_g v, or Ad*_g v if v is a covector. If ``inverse`` is true, g^-1 replaces g."""
         return self.add(Adjoint(v.kind is Kind.DUAL, inverse), target, g, v)
 
     def bracket(self, target: str, x: Var, v: Var) -> Var:
-        """Append target = [x, v], or ad*_x v for v in the dual."""
+        """Append target = [x, v], or ad*_x v if v is a covector."""
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. If v is in the dual, ad*_x
-        replaces ad_x.
+        """Append target = dexp^{-1}_x v. The series in powers of ad_x is truncated after the power ``order``.
+
+        If v is a covector, ad*_x replaces ad_x.
         """
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
     def dual_dexp(self, target: str, x: Var, mu: Var) -> Var:
-        """Append target = dexp*_x mu."""
+        """Append target = dexp*_x mu, where dexp*_x is the transpose of dexp_x."""
         return self.add(DualDexp(), target, x, mu)
 
     def field_at(self, target: str, y: Var, *time: Var) -> Var:
@@ -251,17 +256,17 @@ class Builder:
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
-        """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
+        """Append target = sum of coefficient * variable. If all coefficients are zero, append target = 0."""
         var = self.fresh(target, kind)
-        # Compiler passes assume that a sum depends on each of its arguments. Terms with the coefficient zero
-        # are therefore omitted.
+        # Terms with the coefficient zero are omitted. Compiler passes assume that a sum depends on each
+        # variable in the sum.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
         return var
 
     def advance(self, target: str, t: Var, coefficient: Coefficient) -> Var:
-        """Append target = t + c h, the time of a stage. ``coefficient`` is the product c h."""
+        """Append target = t + ``coefficient``, the time of a stage. ``coefficient`` is a multiple of h."""
         return self.add(Advance(coefficient), target, t)
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
@@ -275,19 +280,19 @@ class Builder:
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
-        """Append the exact flow of a term of the Hamiltonian. The flow starts at (q, mu).
+        """Append the exact flow of a term of the Hamiltonian, and return q and mu after the flow.
 
-        ``part`` is the name of the term, and ``duration`` is the duration of the flow. The result is the pair
-        of variables with the state after the flow.
+        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, ``time`` is
+        the fixed time at which the flow evaluates the term.
         """
-        # The number of the statement makes the variable names of successive flows different.
+        # The variable names contain the number of this assignment, so two flows have different names.
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return and remove the assignments appended so far. The names of their variables stay reserved."""
+        """Return the assignments appended so far, and clear the list."""
         body = tuple(self.body)
         # ``taken`` is not cleared, so later assignments of the same program use different names.
         self.body.clear()

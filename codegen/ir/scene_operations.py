@@ -1,5 +1,6 @@
-"""The operations of step programs that evaluate the user's problem (the scene): the vector field, the
-derivatives of the Hamiltonian, the energy, and exact flows.
+"""Operations of step programs for the user's problem (the scene).
+
+Examples are the vector field, the derivatives of the Hamiltonian, the energy, and exact flows.
 """
 
 from __future__ import annotations
@@ -23,13 +24,11 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function that evaluates this operation. The scene defines this function."""
-        # For formulas that depend on time, the name ends in ``t``.
+        # If the formulas depend on time, the name of the function ends in ``t``.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of all arguments. They are ``arguments``, followed by the kind of the time if
-        ``timed`` is true.
-        """
+        """Return ``arguments``. If ``timed`` is true, append the kind of the time."""
         return arguments + R if self.timed else arguments
 
 
@@ -48,10 +47,10 @@ class Field(OfScene):
 
 @dataclass(frozen=True)
 class HamiltonianDerivatives(OfScene):
-    """The derivatives xi = D_2 H and n = -(D_1 H).q^-1 of the Hamiltonian H(q, mu), or H(q, mu, t).
+    """The derivatives xi and n of the Hamiltonian H(q, mu), or H(q, mu, t).
 
-    D_1 and D_2 denote the derivatives with respect to q and mu. In components, n_a is -d/deps H(exp(eps e_a)
-    q, mu) at eps = 0, for the basis elements e_a of the Lie algebra.
+    The vector xi is the derivative with respect to mu. Let e_a be the basis elements of the Lie algebra. The
+    components of the covector n are n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0.
     """
 
     name = "hamilton"
@@ -67,8 +66,8 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # A statement may need only the velocity or only the force. They are separate operations, so that compiler
-    # passes can remove the unused one.
+    # The velocity and the force are separate operations. If only one of them is used at a point, compiler
+    # passes can remove the other one.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -80,8 +79,8 @@ class BodyVelocity(OfScene):
 class BodyForce(OfScene):
     """The force N(q, P) in the body frame, where P = Ad*_q mu.
 
-    A force and a :class:`BodyVelocity` at the same point count as one evaluation of the derivatives of the
-    Hamiltonian.
+    In counts of operations, the force and the velocity at a point are one evaluation of the derivatives of
+    the Hamiltonian.
     """
 
     name = "force"
@@ -97,7 +96,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # The momentum is a constant matrix times the velocity. No formula of the scene is evaluated.
+    # The momentum is a constant matrix times the velocity, so no formula of the scene is evaluated.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -114,9 +113,9 @@ class Energy(OfGroup):
 
 @dataclass(frozen=True)
 class Differential(OfGroup):
-    """The differential R*_y dH of the energy at y.
+    """The differential of the energy H at y, a covector.
 
-    Its pairing with an element e of the Lie algebra is d/deps H(exp(eps e).y) at eps = 0.
+    The pairing of this covector with an element e of the Lie algebra is d/deps H(exp(eps e).y) at eps = 0.
     """
 
     name = "differential"
@@ -125,18 +124,17 @@ class Differential(OfGroup):
     noun = "differential{s} of the energy"
 
 
-# The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
+# In coordinates, the result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
 @dataclass(frozen=True)
 class Secant(OfGroup):
     """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
 
     The covector g approximates the gradient. The vector x is the displacement between two points with the
-    energies H0 and H1. Among all covectors whose pairing with x is H1 - H0, the result is the nearest to g.
-    For x = 0 the result is g.
+    energies H0 and H1. The pairing of the result with x is H1 - H0. Among all covectors with this property,
+    the result has the smallest Euclidean distance from g. For x = 0 the result is g.
     """
 
-    # The formula contains a quotient that is 0/0 at x = 0. One operation for the whole formula can treat this
-    # case.
+    # For x = 0, the number r is 0/0. An operation for the whole formula can return g in this case.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -144,14 +142,14 @@ class Secant(OfGroup):
 
 @dataclass(frozen=True)
 class Bivector(OfGroup):
-    """The element omega_y(alpha, .) of the Lie algebra, for a point y and a covector alpha.
+    """The bivector omega_y at the point y, applied to a covector alpha.
 
-    The bivector omega_y at the point y is a skew bilinear form on the dual of the Lie algebra. If alpha is
-    the differential of the energy H at y, the result is the vector field f(y).
+    The bivector is a skew-symmetric linear map from the dual of the Lie algebra to the Lie algebra. If alpha
+    is the differential of the energy H at y, the result is the vector field f(y).
     """
 
-    # The operation is linear in alpha. If alpha is c beta with a number c, compiler passes may apply the
-    # operation to beta, and multiply the result by c.
+    # The operation is linear in alpha. For alpha = c beta with a number c, compiler passes may compute the
+    # result for beta and multiply it by c.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -160,9 +158,10 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The point after a Taylor step: the Taylor polynomial of the solution with y(t) = y, evaluated at t + h.
+    """The state after a Taylor step: the Taylor polynomial of the solution about t, evaluated at t + h.
 
-    The argument is y. If ``timed`` is true, the arguments are y and t.
+    The value of the solution at the time t is y. The argument of the operation is y. If ``timed`` is true,
+    the arguments are y and t.
     """
 
     degree: int
@@ -195,12 +194,13 @@ class CayleyElement(OfGroup):
     noun = "Cayley map{s}"
 
 
-# For example, if x and y are skew-symmetric matrices, x y x is skew-symmetric, because (x y x)^T = -x y x.
+# If x and y are skew-symmetric matrices, x y x is skew-symmetric, because (x y x)^T = -x y x.
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
-    """The product x y x of two elements x and y of the Lie algebra, which are matrices or quaternions.
+    """The product x y x of two elements x and y of the Lie algebra.
 
-    If the group is defined by a quadratic equation such as g^T g = 1, the product is in the Lie algebra.
+    The elements are matrices or quaternions. If the group is defined by a quadratic equation such as
+    g^T g = 1, the product is in the Lie algebra.
     """
 
     linear_in_last = True
@@ -226,7 +226,7 @@ class FlowOf(Operation):
     """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
     ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
-    a time t. During the flow, the time in the term is fixed at t.
+    a time t. The flow evaluates the term at the fixed time t.
     """
 
     part: str
@@ -260,8 +260,8 @@ class FlowOf(Operation):
 class SiteFlowOf(Operation):
     """The state of a lattice after the exact flow of one part of its vector field, for a fixed duration.
 
-    ``part`` is the name of this part. The flow changes all sites together, so its value for a single site is
-    not defined.
+    ``part`` is the name of this part. The flow changes all sites together, so a single site has no flow of
+    its own.
     """
 
     part: str
@@ -284,13 +284,13 @@ class SiteFlowOf(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Raise ArithmeticError, because the flow cannot be evaluated for a single site."""
-        raise ArithmeticError("the flow of a lattice changes all sites and has no value at a single site")
+        raise ArithmeticError("the flow of a lattice changes all sites and is not defined for a single site")
 
 
-# In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is computed by the step.
+# In :class:`FlowOf` the duration is a fixed multiple of h. In this class the step computes the duration.
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The state after the exact flow of one term of the Hamiltonian, for a duration that is an argument.
+    """The state after the exact flow of one term of the Hamiltonian. The duration is an argument.
 
     ``part`` is the name of the term. The last argument is the duration. If ``timed`` is true, the argument
     before the duration is the time.
@@ -312,7 +312,7 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
-        # The last argument is the duration. The other arguments are q, mu and, if ``timed``, the time.
+        # The last argument is the duration.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 

@@ -5,8 +5,9 @@
 - ``fabs`` is the absolute value.
 - A :class:`codegen.ir.table.PiecewisePolynomial` selects one of its polynomials.
 
-The selected formula changes at certain arguments, for example at x = 0 in ``choose``. :class:`Kink` is raised
-if the argument is a power series in h that has such a value at h = 0.
+The selected formula changes at certain values of the argument, for example at x = 0 in ``choose``. The
+argument may be a power series in h. If the constant term of the series is one of these values, :class:`Kink`
+is raised.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The selecting functions with fixed names. A piecewise polynomial has a name of its own and is not listed.
-"""
+"""The names of the selecting functions, except piecewise polynomials."""
 
 
 class Kink(ArithmeticError):
-    """Raised if the argument of a selecting function is a power series in h, and the selected formula changes
-    at the constant term of this series.
+    """Raised if the selected formula changes at the constant term of a power series.
+
+    The power series in h is the argument of the selecting function.
     """
 
 

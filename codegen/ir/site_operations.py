@@ -29,9 +29,9 @@ class Total(Operation):
 
 @dataclass(frozen=True)
 class InnerProduct(Operation):
-    """The sum of products of coordinates of two vectors in the Lie algebra or its dual.
+    """The inner product of the coordinates of two vectors at one site.
 
-    ``first`` and ``second`` are the kinds of the vectors: algebra or dual.
+    ``first`` and ``second`` are the kinds of the vectors. Each vector is in the Lie algebra or its dual.
     """
 
     first: Kind
@@ -55,8 +55,8 @@ class InnerProduct(Operation):
 class Excess(Operation):
     """The number H1 - H0 - p for the arguments p, H0 and H1.
 
-    H0 and H1 are energies at two points. The number p is a linear prediction of H1 - H0, and the result is
-    the error of this prediction.
+    H0 and H1 are energies at two points. The number p is the pairing of a gradient with the displacement
+    between the points, so p approximates H1 - H0. The result is the error of this approximation.
     """
 
     name = "excess"
@@ -70,7 +70,7 @@ class Excess(Operation):
 
 @dataclass(frozen=True)
 class Corrected(Operation):
-    """The covector g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
+    """The covector g + (r/s) x for a covector g, a vector x and numbers r, s. For s = 0 the result is g."""
 
     name = "corrected"
     takes, gives = D + A + R + R, D
@@ -85,7 +85,10 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """The vector (p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
+    """The vector (p f - q gamma)/s for a covector gamma, a vector f and numbers p, q and s.
+
+    For s = 0 the result is zero. This vector is the value of a bivector (:mod:`codegen.kernel.site_sums`).
+    """
 
     name = "wedge"
     takes, gives = D + A + R + R + R, A
@@ -93,7 +96,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s, where ``args`` is (gamma, f, p, q, s). For s = 0, return zero."""
         gamma, f, p, q, s = args
-        # The quotients p/s and q/s are computed only once. The components of the result then need no
-        # divisions.
+        # The quotients p/s and q/s are the same for all components, so they are computed only once.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)
