@@ -48,8 +48,8 @@ class _Graph:
     """The graph of the expressions. The label of the edge from u to v is the derivative of v with respect to
     u. Both ``before[v][u]`` and ``after[u][v]`` contain this label.
 
-    The vertices of variables and inner nodes are their node numbers. Only nodes that depend on a variable are
-    in the graph. The results are the vertices -1, -2, and so on.
+    A vertex is a number: the node number of a variable or of an inner node, or -1, -2, ... for the results.
+    Only nodes that depend on a variable are in the graph.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -109,20 +109,19 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # If the cost has grown since this entry was made, a new entry with the present cost is made. If
-            # the cost has fallen, the queue already contains an entry with the lower cost.
+            # If the cost of v has grown, v is put back into the queue with the new cost.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Only inner vertices are in both tables. Variables and results are never eliminated.
+                # Only inner vertices are eliminated. They are in both ``before`` and ``after``.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # First v and its edges are removed from the graph.
+        # The vertex v and its edges are removed from the graph.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

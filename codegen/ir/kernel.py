@@ -1,10 +1,10 @@
-"""Kernels: a step as a list of scalar assignments and of loops that solve equations. C or Python code is
-printed from a kernel.
+"""Kernels: the statements of one step. C or Python code is printed from a kernel.
 
-Each name in a kernel is assigned only once. A :class:`Loop` solves equations u = g(u) for its unknowns u. The
-values g(u) are called images. Each sweep (iteration) of a loop replaces the unknowns by their images, or
-corrects the unknowns by Newton's method. A :class:`Start` sets the first values of the unknowns of all loops.
-A kernel has no branches that depend on data, apart from its loops.
+The statements are scalar assignments and loops that solve equations. Each name is assigned only once. A
+:class:`Loop` solves equations u = g(u) for its unknowns u. The values g(u) are called images. Each sweep
+(iteration) of a loop replaces the unknowns by their images, or corrects the unknowns by Newton's method. A
+:class:`Start` sets the first values of the unknowns of all loops.
+Apart from the loops, a kernel has no branches that depend on data.
 """
 
 from __future__ import annotations
@@ -22,38 +22,42 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The name of a symbol in the steps of splitting methods: the duration of the last flow of a step. Between
-two steps of a run, the last flow of one step and the first flow of the next step are joined to one flow. The
-name contains a dot, so it differs from every name that a user can choose.
+"""The name of the symbol for the duration of the last flow of a step, in splitting methods.
+
+In a run of several steps, the last flow of each step is joined with the first flow of the next step. The name
+contains a dot, so it differs from every name that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of a symbol in splitting methods: the total duration of successive steps. The symbol is used in
-flows that are applied only once for all of these steps (:class:`Deferred`).
+"""The name of the symbol for the total duration of several steps, in splitting methods. Flows that are
+applied only once for several steps have this duration (:class:`Deferred`).
 """
 
 LONGEST = 256
-"""The largest number of successive steps for which a flow is applied only once (:class:`Deferred`). The
-angles in this flow are proportional to the number of steps. Their rounding errors grow in the same
-proportion.
+"""The largest number of steps that share one deferred flow (:class:`Deferred`).
+
+The angles in a deferred flow are proportional to the number of steps. The rounding errors of the angles grow
+in the same proportion.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""A lower bound of the contraction factor in the stopping rule.
+"""The smallest contraction factor that the stopping rule uses.
 
-The contraction factor is estimated as the quotient of two successive changes of the unknowns. Near rounding
-level, an estimate below this bound is unreliable, and the bound replaces it.
+The contraction factor is the quotient of two successive changes of the unknowns. If the changes are as small
+as rounding errors, the quotient may be tiny by accident. A smaller quotient is replaced by this bound.
 """
 
 UNIT = 2.0**-53
 """The unit roundoff of doubles, that is, the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A change counts as a rounding error if it is below this fraction of the largest number in the same
-:class:`Field` of the state.
+"""A bound in the stopping rule (:mod:`codegen.run.stopping`).
+
+The rule compares h times the change of the unknowns with this fraction of the largest number in each part of
+the state. A smaller product is a rounding error.
 """
 
 VARIATION = "variation"
@@ -78,13 +82,14 @@ class Newton:
     """Newton's method for the equations of a loop. ``matrix`` is the matrix of the method, and ``body``
     computes its entries. For equations u = g(u), the matrix is 1 - g'(u).
 
-    - ``leading`` is true if this matrix is expanded to first order in h. It is then computed and inverted in
-      each step. If ``leading`` is false, the matrix is reused in later sweeps and steps
-      (:mod:`codegen.run.sweeps`).
+    - ``leading`` is true for simplified Newton iterations. The matrix is then expanded to first order in h,
+      and it is computed and inverted in each step. If ``leading`` is false, the matrix is reused in later
+      sweeps and steps (:mod:`codegen.run.sweeps`).
     - ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals`` is true if the loop solves equations r(u) = 0. Its ``images`` are then the residuals r(u),
-      and the matrix is -r'(u), expanded to first order in h. The inverse is used for :attr:`period` steps.
-    - ``changes`` are the names of the variables with the last changes of the unknowns.
+    - ``residuals`` is true if the loop solves equations r(u) = 0. The ``images`` of the loop are then the
+      residuals r(u), and the matrix is -r'(u), expanded to first order in h. The inverse matrix is used for
+      :attr:`period` steps.
+    - ``changes`` are the names of the variables for the changes of the unknowns in the latest sweep.
     """
 
     body: tuple[Let, ...]
@@ -100,14 +105,13 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which an inverse matrix is used. The value 0 means that it is used as long
-        as the sweeps reduce the changes sufficiently.
+        """The number of steps for which an inverse matrix is used, or 0 if this number is not fixed.
 
-        The cost of the inverse of an n x n matrix is proportional to n^3. With a longer period the inverse is
-        computed less often. But an older inverse is less accurate, so a step needs more sweeps.
+        With a longer period, fewer inverses are computed. However, an older inverse is less accurate, so a
+        step needs more sweeps.
         """
-        # An inverse costs O(n^3) operations. It is used for about n/2 steps, so its share of each step is
-        # O(n^2).
+        # The inverse of an n x n matrix costs O(n^3) operations. If it is used for about n/2 steps, the cost
+        # per step is O(n^2).
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -120,18 +124,18 @@ class Loop:
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. ``starts`` is empty if a :class:`Start` computes the first values.
 
-    In each sweep the change of the unknowns is computed. It is g(u) - u for fixed-point iteration. If
-    ``newton`` is given, the change is the inverse of ``newton.matrix`` times g(u) - u. The change of the last
-    sweep is added to the unknowns only if ``newton`` is given.
+    Each sweep computes the change of the unknowns. In fixed-point iteration the change is g(u) - u, and the
+    change of the last sweep is not added to the unknowns. If ``newton`` is given, the change is the inverse
+    of ``newton.matrix`` times g(u) - u, and every change is added.
 
-    The stopping rule (:mod:`codegen.run.stopping`) uses these numbers:
-    - ``tolerance``: a loop whose change no longer decreases ends if the change is below ``tolerance`` times
-      the largest unknown.
-    - ``close``: a loop whose rate of convergence predicts a small error ends if the change is below ``close``
-      times the largest unknown.
+    The stopping rule (:mod:`codegen.run.stopping`) uses these values:
+    - ``tolerance``: if the change is below ``tolerance`` times the largest unknown and no longer decreases,
+      the loop ends.
+    - ``close``: if the change is below ``close`` times the largest unknown and the rate of convergence
+      predicts a small error, the loop ends.
     - ``limit`` is the largest number of sweeps.
-    - ``only_unknowns_read`` is true if the code after the loop uses only the unknowns, and no values of
-      ``body``. The loop may then end at a larger change.
+    - ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``. The loop may then
+      end at a larger change.
     """
 
     label: str
@@ -139,7 +143,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # A tolerance of one rounding unit would be too small, because each sweep adds many rounding errors.
+    # The rounding errors of many operations add up in a sweep, so the tolerance is far above 2^-53.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -154,23 +158,19 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """A bound of the change of the unknowns, divided by the largest unknown.
+        """A bound of the change of the unknowns, relative to the largest unknown (see :class:`Loop`).
 
-        If the change is below this bound and a small error is predicted, the loop ends (see :class:`Loop`).
         Statements after the loop may use values of ``body``. These values were computed before the last
-        change of the unknowns, so their error is about h L times this change. Here h L is the Lipschitz
+        change of the unknowns, so their error is about h L times the last change. Here h L is the Lipschitz
         constant of the images g(u).
-
-        With simplified Newton, each sweep multiplies the change by about (h L)^2. The loop converges only if
-        this factor is small. Hence h L is small when the loop ends.
         """
-        # No value of ``body`` is used after the loop, so only the error of the unknowns matters. It is
-        # smaller than the change of the unknowns in the last sweep.
+        # No value of ``body`` is used after the loop. The error of the unknowns is smaller than their last
+        # change, so a larger change is accepted.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # If the matrix of Newton's method is expanded to first order in h, the loop converges only if the
-        # Lipschitz constant h L of the images is small. All other loops may converge for larger h L. The
-        # errors of the values of ``body`` may then be larger, so these loops need a smaller bound.
+        # With a first-order matrix, each sweep multiplies the change by about (h L)^2, so the loop converges
+        # only for small h L. Other loops may converge for larger h L. The values of ``body`` then have larger
+        # errors, so the bound is smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -180,9 +180,9 @@ class Start:
     """The statement that sets the first values of the unknowns of all loops.
 
     If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
-    Otherwise the first values are extrapolated from the solutions u1, u2, ... of the last steps (latest
-    first). The extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth``
-    solutions are stored.
+    Otherwise the first values are extrapolated from earlier solutions. Let u1 be the solution of the last
+    step, u2 the solution of the step before it, and so on. The extrapolations of degree 0, 1 and 2 are u1,
+    2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth`` solutions are stored.
 
     The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
     (order 2), and so on. If the difference of order d + 1 is smaller than the difference of order d, then d
@@ -190,10 +190,10 @@ class Start:
     of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except
     u1 are discarded.
 
-    If the loops do not converge, the step size is halved until they converge. The solution for this step size
-    provides the first values for a larger step size. This is repeated until the step size is h (continuation
-    in h). If the loops do not converge for a larger step size, the step size grows by a smaller factor. The
-    continuation fails if this factor is at most 1 + ``SHORTEST``, or after ``TRIES`` step sizes.
+    If a step fails, it is repeated by continuation in h. The step size is halved until the loops converge.
+    It then grows to h, and each solution provides the first values for the next larger step size. After a
+    failure the step size grows by a smaller factor. The continuation fails if this factor is at most
+    1 + ``SHORTEST``, or after ``TRIES`` step sizes.
     """
 
     unknowns: tuple[str, ...]
@@ -201,16 +201,13 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The simplest first value is u1, the solution of the last step. Its error is the change of the unknowns
-    # in the step. If the error of an extrapolation exceeds half of this change, the extrapolation is hardly
-    # better than u1.
+    # The error of the first value u1 is the change of the unknowns in the step. If the error of an
+    # extrapolation is more than half of this change, the extrapolation is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
-    # The continuation tries at most ``TRIES`` step sizes. This limit is hardly ever reached: after 100
-    # halvings the step size would be 2^-100 h.
+    # The continuation needs far fewer step sizes: after 100 halvings the step size would be 2^-100 h.
     TRIES: ClassVar[int] = 100
-    # The step size grows by a factor of at most 4. If the loops do not converge for a larger step size, the
-    # factor is replaced by its square root. After nine successive failures the factor is at most 4^(1/2^9).
-    # This number is less than 1 + 2^-8.
+    # The step size grows by a factor of at most 4. A failure replaces the factor by its square root. After
+    # nine successive failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -229,16 +226,15 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The flows of a splitting method that a run of several steps applies only once, before its first step or
-    after its last step.
+    """The deferred flows of a splitting method. A run of several steps applies each deferred flow only once,
+    before the first step or after the last step.
 
-    A single step calls ``begin``, the kernel of the step, and ``finish``. A run of several steps calls
-    ``begin`` once, the kernel of the step once for each step, and ``finish`` once. A long run is divided into
-    runs of at most :data:`LONGEST` steps.
+    A run calls ``begin`` once, then the kernel of the step once for each step, and then ``finish`` once. A
+    single step is a run of one step. A long run is divided into runs of at most :data:`LONGEST` steps.
 
-    The symbol :data:`LEAD` is the duration of the last flow of the kernel. In a single step and in the last
-    step of a run, this duration is h times the number ``last``. In all other steps it is h times the number
-    ``later``. The symbol :data:`ELAPSED` is the duration of the single step or of the whole run.
+    The symbol :data:`LEAD` is the duration of the last flow of the kernel. In the last step of a run, this
+    duration is h times the number ``last``. In all other steps the duration is h times the number ``later``.
+    The symbol :data:`ELAPSED` is the duration of the whole run.
     """
 
     begin: Kernel | None
@@ -248,21 +244,20 @@ class Deferred:
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """A tuple of the kernels ``begin`` and ``finish``, without those that are None."""
+        """The kernels ``begin`` and ``finish``. Values that are None are omitted."""
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
 @dataclass(frozen=True)
 class Carried:
-    """The conversions of a step that uses the momentum m in the body frame in place of the space momentum mu.
+    """The conversions between the space momentum mu of the caller and the body momentum m of the steps.
 
-    The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index
-    ``first`` of the state. The kernel of the step maps (q, m) to (q', m').
+    The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m), where q is the group element in the
+    state. The momentum begins at the index ``first`` of the state.
 
-    A run of several steps computes m at its beginning, and calls the kernel once for each step. At its end it
-    computes the new space momentum: mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q
-    slightly non-orthogonal, so outward(q, m) has a small error. A similar error of outward(q', m') nearly
-    cancels it.
+    A run of several steps converts mu to m at the beginning. Its steps map (q, m) to (q', m'). At the end the
+    run computes the new space momentum mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q and
+    q' slightly non-orthogonal, so both conversions have errors. The errors nearly cancel in the difference.
     """
 
     inward: Kernel
@@ -285,8 +280,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order.
 
-    The error estimate of one step is O(h^``order``). ``errors`` contains the components of the estimate. It
-    is empty if the step is an :class:`ArrayStep`, which computes the estimate as a matrix.
+    The error estimate of one step is O(h^``order``). ``errors`` contains the components of the estimate. For
+    an :class:`ArrayStep`, ``errors`` is empty, because the step computes the estimate as a matrix.
     """
 
     errors: tuple[Expr, ...]
@@ -295,21 +290,22 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution as a function of time. Its initial value is the state.
+    """The Taylor polynomial of the solution as a function of time.
 
-    The outputs of the kernel ``coefficients`` are the Taylor coefficients of the orders 1, ..., ``degree``,
-    one order after the other. If the polynomial uses other coordinates than the state, ``enter`` computes
-    these coordinates from the state, and ``leave`` computes the new state from them. Otherwise ``enter`` and
-    ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the coefficients.
+    The outputs of the kernel ``coefficients`` are the Taylor coefficients of order 1, then of order 2, and so
+    on to the order ``degree``. If the coordinates of the polynomial differ from the state, ``enter`` computes
+    the coordinates from the state, and ``leave`` computes the new state from the new coordinates. Otherwise
+    ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
+    Taylor coefficients.
 
-    If ``following`` is given, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs: the
-    values that the loop uses but does not compute, and the coefficients of order 1.
+    If ``following`` is given, the coefficients are computed in a loop over the order n
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of ``coefficients`` are then values that
+    are computed once before the loop. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    The loop computes ``sums`` inner sums. The kernel ``following`` has three groups of outputs: the
-    coefficients a_n for all inner sums, the coefficients b_n for all inner sums, and the Taylor coefficients
-    of order n + 1.
+    The number of inner sums in the loop is ``sums``. The outputs of the kernel ``following`` are the
+    coefficients a_n of all inner sums, then the coefficients b_n of all inner sums, and then the Taylor
+    coefficients of order n + 1.
     """
 
     degree: int
@@ -325,10 +321,10 @@ class Expansion:
 class Continuous:
     """A continuous extension (dense output) of order ``order``.
 
-    The solution at the time t + theta h is exp(sigma(theta)).y. Here y is the state at the time t, and
-    sigma(theta) is a polynomial with values in the Lie algebra. The outputs of ``coefficients`` are the
-    coefficients of theta, ..., theta^``degree`` in sigma, one after the other. ``moved`` computes exp(x).y
-    from a state y and the coordinates x of an element of the Lie algebra.
+    The solution at the time t + theta h is the action of exp(sigma(theta)) on the state at the time t. Here
+    sigma(theta) is a polynomial with values in the Lie algebra. The outputs of the kernel ``coefficients``
+    are the coefficients of theta, theta^2, ..., theta^``degree``, in this order. The kernel ``moved``
+    computes the action of exp(x) on a state, where x are the coordinates of an element of the Lie algebra.
     """
 
     coefficients: Kernel
@@ -339,11 +335,11 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The properties of a run, an emitted function that integrates to a given end time.
+    """The properties of the emitted function that integrates to a given end time.
 
-    The run writes the states at given output times, and finds the zeros of event functions. ``events`` is the
-    number of event functions, which the caller supplies. The ``extension`` (dense output) computes the states
-    at output times. If ``extension`` is None, the run takes shorter steps that end at the output times.
+    This function writes the states at given output times. It also finds the zeros of ``events`` event
+    functions that the caller supplies. The ``extension`` (dense output) computes the states at output times.
+    If ``extension`` is None, steps are shortened to end at the output times.
     """
 
     events: int = 0
@@ -379,13 +375,12 @@ class Kernel:
     - ``carried`` contains the conversions of the momentum if the kernel uses the body momentum in place of
       the space momentum.
     - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of any
-      other method. A run with step-size control needs one of them.
+      other method. Step-size control needs ``expansion`` or ``estimate``.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
-    - ``observed`` is given if emitted code also contains a run to a given end time.
+    - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 
-    A kernel without ``outputs`` is of one of four types. With ``expansion`` it evaluates a Taylor polynomial.
-    With ``arrays`` it executes a step on large matrices, with ``sites`` on a lattice, and with ``modes`` on
-    Fourier modes.
+    A kernel without ``outputs`` has one of four other descriptions of the step: ``expansion`` (a Taylor
+    polynomial), ``arrays`` (large matrices), ``sites`` (a lattice) or ``modes`` (Fourier modes).
     """
 
     name: str
@@ -421,7 +416,7 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The statement that computes the first values of all unknowns, or None if there is none."""
+        """The :class:`Start` of the kernel, or None if the kernel has no :class:`Start`."""
         # A kernel has at most one ``Start``, before its first loop.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
@@ -438,7 +433,7 @@ class Kernel:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the kernel, in the order of execution."""
-        # The times of ``samples`` come first, because the functions of time are evaluated before the step.
+        # The input functions are evaluated before the step, so the times of ``samples`` come first.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -448,7 +443,7 @@ class Kernel:
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
-            # The other statements are loops.
+            # ``statement`` is now a loop.
             yield from (*statement.starts, *statement.images)
             if statement.newton is not None:
                 yield from (let.value for let in statement.newton.body)
@@ -472,9 +467,9 @@ class Kernel:
         """Return those of the ``scalars`` that the step uses, in the order of ``scalars``."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # The step also calls the kernels of the deferred flows.
+            # The deferred flows are separate kernels. Their scalars are added.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # The kernel that computes the Taylor coefficients is also a part of the step.
+            # A separate kernel computes the Taylor coefficients. Its scalars are added.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

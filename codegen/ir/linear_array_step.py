@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""Counts of operations assume Taylor polynomials of this degree for exponentials. In an emitted step the
-degree depends on the norm of the exponent.
+"""The degree of the Taylor polynomials that :meth:`LinearArrayStep.operations` assumes for exponentials. In
+emitted code the degree depends on the norm of the exponent.
 """
 
 Letter = tuple[tuple[int, Number], ...]
@@ -48,7 +48,7 @@ class TimeMatrix:
     def offsets(self) -> tuple[int, ...]:
         """The offsets of the diagonals of a banded matrix, sorted by absolute value: 0, -1, 1, -2, 2, ..."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        # The offsets d and -d have equal absolute values. The second part of the sort key orders them.
+        # The offset -d comes before the offset d > 0.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
@@ -90,14 +90,13 @@ class Element:
 
 @dataclass(frozen=True)
 class LinearArrayStep:
-    """A step y1 = exp(X_m) ... exp(X_1) y0 for n x k matrices y.
+    """A step y1 = exp(X_m) ... exp(X_1) y0, where y0 and y1 are n x k matrices.
 
     - ``argument`` is y0.
-    - ``times`` are the times at which ``matrix`` is evaluated.
-    - ``letters`` are linear combinations of the matrices h A(t_i). Here A is ``matrix``, and t_i is the time
-      with the index i.
-    - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y consist of letters and
-      earlier commutators.
+    - ``matrix`` is A(t), and ``times`` are the times t_i at which the matrix is evaluated.
+    - ``letters`` are linear combinations of the matrices h A(t_i).
+    - ``commutators`` contains the pair (X, Y) for each commutator [X, Y]. X and Y may contain commutators
+      with smaller indices.
     - ``exponents`` are X_1, ..., X_m in this order.
     """
 
@@ -118,7 +117,7 @@ class LinearArrayStep:
         # A letter is stored as one matrix, so it needs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
-            # X (Y v) - Y (X v) contains two products with X and two with Y.
+            # The commutator needs the products Y v, X (Y v), X v and Y (X v).
             own += 2 * sum(map(self.products, self.commutators[number]))
         return own
 

@@ -21,8 +21,8 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The names of the functions that :func:`_called` can expand to first order in h. It can also expand
-piecewise polynomials, which are recognised by their class and not by their names.
+"""The names of the functions that :func:`_called` can expand to first order in h. Piecewise polynomials can
+be expanded, too. They are recognised by their class.
 """
 
 Pair = tuple[Expr, Expr]
@@ -47,7 +47,7 @@ class _Dual:
 
 
 class FirstOrder:
-    """Computes derivatives of expressions with respect to the unknowns, to first order in h.
+    """Computes derivatives of expressions with respect to the unknowns, to first order in the step size h.
 
     ``unknowns`` are the names of the symbols of the unknowns. A shared subexpression is expanded only once.
 
@@ -80,7 +80,7 @@ class FirstOrder:
         rows = []
         for root in roots:
             slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
-            # Each derivative is a polynomial of degree 1 in h.
+            # ``low`` and ``high`` are the coefficients of 1 and h in a derivative.
             rows.append([h * high + low for low, high in slopes])
         return rows
 
@@ -94,8 +94,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # A symbol u other than h has the expansion u + 0 h. If it is an unknown, its derivative with
-            # respect to itself is 1.
+            # Every other symbol u has the expansion u + 0 h. The derivative of an unknown with respect to
+            # itself is 1.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -192,7 +192,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # The Stumpff function c_k is expanded only at 0, where its derivatives are rational numbers.
+        # The Stumpff function c_k is expanded only at 0. Its derivatives at 0 are known rational numbers.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # The three numbers are the coefficients of 1, z and z^2 in the series c_k(z) = 1/k! - z/(k+2)! +
@@ -223,7 +223,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)
     else:
-        # Only sin and cos remain. Their second derivatives are -sin and -cos, that is, minus the value.
+        # The function is sin or cos. Its second derivative is the negative of its value.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)

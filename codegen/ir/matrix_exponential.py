@@ -1,5 +1,5 @@
-"""The exponential of an n x n matrix, and its derivatives, in doubles, with many digits, and for power
-series.
+"""The exponential of an n x n matrix, and the derivatives of the exponential. The matrix entries are doubles,
+numbers with many digits, or power series.
 
 Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
 exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l contains l symbols
@@ -30,8 +30,8 @@ products of matrices.
 """
 
 LEAST_DIGITS = 10
-"""The smallest accepted number of correct binary digits, about three decimal digits. If the bound of the
-relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN.
+"""The smallest accepted number of correct binary digits of the exponential. Ten binary digits are about three
+decimal digits. If the bound of the relative error exceeds 2^-``LEAST_DIGITS``, all results are NaN.
 """
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
@@ -47,19 +47,17 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # The product of e_j and e_k contains the symbols for the bits of j and k. If j and k have no common bit,
-    # then e_j e_k = e_m with m = j + k. If they have a common bit, the product contains the square of a
-    # symbol and is zero.
+    # If j and k have a common bit, the product e_j e_k contains the square of a symbol and is zero. Otherwise
+    # e_j e_k = e_(j + k). The pairs for m are therefore (j, m - j), where all bits of j are also bits of m.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return a bound of the norm for each degree m of :data:`DEGREES`. The Taylor polynomial of degree m is
-    used only for matrices with a norm up to this bound.
+    """Return the largest norm of a matrix for the Taylor polynomial of each degree m of :data:`DEGREES`.
 
-    The bound is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For a smaller norm, the error of the
+    The largest norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For smaller norms, the error of the
     polynomial is below a quarter of the unit roundoff 2^-``bits``.
 
     >>> largest_norms(53)
@@ -77,12 +75,11 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
-    # The scale depends only on the norm of the matrix. The derivatives are scaled by the same power of two.
+    # The norm of the first matrix determines the scale. The derivatives are multiplied by the same scale.
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
-    # The number of halvings is limited. If the norm of the scaled matrix is still too large, the results are
-    # NaN.
+    # If the norm is too large after the largest number of halvings, the results are NaN.
     if norm > largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
@@ -94,7 +91,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     ``norm`` is the norm of the matrix before scaling.
     """
     scale, squarings = 1.0, 0
-    # Each squaring doubles the relative error approximately, so no digit is correct after 53 squarings.
+    # Each squaring about doubles the relative error. After 53 squarings no binary digit is correct.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -115,15 +112,14 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
     result: list[Scalar] = []
     for parts in pairs(level):
         factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
-        # ``factors`` contains pairs (x, y) of matrices to multiply. ``left`` contains the rows of each matrix
-        # x, and ``right`` contains the columns of each matrix y.
+        # The products x y of the pairs (x, y) in ``factors`` are added. ``left`` contains the rows of each
+        # matrix x, and ``right`` contains the columns of each matrix y.
         left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Entry (i, j) of the sum of the matrices x y is a sum of products of two numbers. Each pair
-                # (x, y) contributes row i of x times column j of y. ``merged`` yields the two numbers of each
-                # product.
+                # Each pair (x, y) contributes row i of x times column j of y to entry (i, j). This is a sum
+                # of products of two numbers. ``merged`` yields the two numbers of each product.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -141,7 +137,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     """Return the Taylor polynomial of the exponential, evaluated at ``b1``. Here ``b1`` is a jet (a matrix
     with its derivatives).
 
-    ``norm`` is the norm of the matrix. The degree is the smallest sufficient degree in :data:`DEGREES`.
+    ``norm`` is the norm of the matrix. It determines the degree (:func:`largest_norms`).
     """
     # Let A be the argument ``b1``, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G,
     # the terms of degrees 4 g to 4 g + 3 form group g. Each group is the product of A^(4 g) and a polynomial
@@ -151,16 +147,14 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. They are computed once for all groups of terms.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # Horner's rule in A^4 begins with the term c_(4 G) A^(4 G) of highest degree. The first value of
-    # ``total`` is c_(4 G) A^4. It already contains a factor A^4, so the first pass of the loop needs no
-    # product with A^4.
+    # In Horner's rule, each pass of the loop multiplies ``total`` by A^4 and adds a polynomial of degree 3.
+    # Before the loop ``total`` is c_(4 G) A^4, so the first pass omits the product with A^4.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The terms are added from the highest degree to the lowest. The largest terms are then added last,
-        # and the rounding errors are small.
+        # The terms of low degree are the largest. They are added last, so the rounding errors are small.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
@@ -177,8 +171,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     logarithmic norm). The result is the exponential of ``scale`` times this bound. For a skew-symmetric
     matrix the result is 1.
     """
-    # The result needs the largest eigenvalue of the symmetric part. This eigenvalue may be negative, so the
-    # diagonal entries are used with their signs.
+    # The largest eigenvalue may be negative, so the diagonal entries are used with their signs.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -186,7 +179,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
             if j != i:
                 total += 0.5 * abs(a[n * i + j] + a[n * j + i])
         largest = max(largest, total)
-    # Horner's rule evaluates the Taylor polynomial of the exponential at ``largest * scale``.
+    # The exponential of ``largest * scale`` is computed as a Taylor polynomial by Horner's rule.
     *rest, result = (1 / math.factorial(k) for k in range(DEGREES[-1] + 1))
     for c in reversed(rest):
         result = c + (largest * scale) * result
@@ -194,23 +187,21 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Square the jet ``total`` repeatedly, and return its power with the exponent 2^``squarings``.
+    """Return the jet that results from ``squarings`` squarings of the jet ``total``.
 
-    All entries are NaN if the first matrix of the result may have fewer than three correct digits, that is,
-    if the bound of its error is too large. The bound is computed as follows. If a matrix E has the error e,
-    its computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and
-    |E| is the spectral norm. ``growth`` is a bound of the spectral norm of the first matrix of ``total``.
+    If the error bound of the first matrix is too large (:data:`LEAST_DIGITS`), all entries of the result are
+    NaN. If a matrix E has the error e, the error of its computed square is at most about
+    2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and |E| is the spectral norm. ``growth`` is a bound of
+    the spectral norm of the first matrix of ``total``.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` is a bound of the error of ``total``, here before the first squaring.
+    # ``error`` is a bound of the error of ``total``. Its first value is the bound before the squarings.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # ``growth`` and the Frobenius norm are two bounds of the spectral norm of the first matrix of
-        # ``total``. The smaller bound is used.
+        # ``growth`` and the Frobenius norm are bounds of the spectral norm. The smaller bound is used.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
-        # If ``growth`` is a bound for the norm of a matrix, its square is a bound for the norm of the squared
-        # matrix.
+        # The norm of the squared matrix is at most the square of ``growth``.
         growth *= growth
         total = product(n, level, total, total)
     if error > 2.0**-LEAST_DIGITS * _norm(total[:size]):
@@ -230,15 +221,15 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     # The norm of the scaled matrix is below 2^-8. The norm of each term of the series is therefore less than
     # 2^-8 times the norm of the previous term.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation, which is at most the bound
-    # ``size`` of the norm of A. Each squaring also loses one bit by rounding. The working precision is
-    # therefore higher than the requested precision, by at most 2000 digits for the cancellation. A copy of
-    # the context is used, so that the precision of the caller does not change.
+    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation. This number is at most
+    # 0.87 |A|, and ``size`` is a bound of |A|. Each squaring also loses one bit by rounding. The working
+    # precision has additional digits for both losses, but at most 2000 digits for the cancellation. The
+    # precision is set in a copy of the context, so the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
     b = [work.mpf(x) * scale for x in a]
-    # The sum begins with the unit matrix. Its derivatives are zero.
+    # The sum begins with the unit matrix, whose derivatives are zero.
     total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
     term, k = total, 0
     # The first matrix of the sum is close to the unit matrix, so terms below ``work.eps`` are negligible.
@@ -254,8 +245,8 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exact exponential of the jet ``a``, a matrix of power series with its derivatives.
 
-    The constant terms of the first matrix of the jet must form a nilpotent matrix, so that the exponential is
-    a finite sum. ArithmeticError is raised if the sum has more than ``longest`` terms.
+    The exponential must be a finite sum. The constant terms of the first matrix of the jet must therefore
+    form a nilpotent matrix. If the sum has more than ``longest`` terms, ArithmeticError is raised.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
