@@ -1,11 +1,15 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees with equal keys
-differ only in their operands and coefficients, which become the arguments of one function
-(:mod:`codegen.kernel.outlined_functions`). Two calls cannot share common subexpressions, such as the sine of
-one angle. Smaller code is worth this cost only for long steps, so only long steps are outlined.
+differ only in their operands and coefficients. One function replaces these trees
+(:mod:`codegen.kernel.outlined_functions`). Its arguments are the operands and coefficients.
 
-The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
+Outlining shortens the code. But two calls of a function cannot share common subexpressions, such as the sine
+of one angle. Shorter code saves more time than this costs only in long steps. Therefore only long steps are
+outlined.
+
+Apart from rounding errors, outlining does not change the values of expressions. To verify this, the old and
+the new expressions are evaluated at a test point.
 """
 
 from __future__ import annotations
@@ -29,18 +33,20 @@ LONG, LONG_EXPLICIT = 700, 500
 LONG_EXPLICIT assignments.
 
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining shortens
-a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time. If either limit
-is doubled, the kernels of nine methods of the gallery do not change. To choose the limits again, run
-``orderconds bench dipole`` with both limits set to 0.
+a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time.
+
+The exact limits hardly matter: with twice either limit, nine methods of the gallery have the same kernels. To
+choose the limits again, run ``orderconds bench dipole`` with both limits set to 0.
 """
 
 WORTH = 0.85
 """The largest fraction of assignments that may remain after outlining. If a larger fraction would remain, the
 step is not outlined.
 
-Calls cost time, so the step must become much shorter. The exact limit hardly matters: the fraction is between
-0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on
-heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top, so this variant is not outlined.
+Calls cost time, so the step must become much shorter. The exact limit hardly matters. On dipole, the
+fraction is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6``. On heavy_top, it is
+in the same range for ``vcg:gauss4``. It is 0.86 for one variant of ``cg:cg5`` on heavy_top, so this variant
+is not outlined.
 """
 
 AGREE = 1e-9
@@ -51,14 +57,14 @@ change the leading digits.
 """
 
 ATTEMPTS, DIGITS = 8, 60
-"""The number of test points in each of two precisions, and the number of digits of the second precision.
+"""ATTEMPTS test points are tried in double precision, then ATTEMPTS points with DIGITS decimal digits.
 
-The first precision is double precision. The verification fails if no test point gives finite values.
+The verification fails if no test point gives finite values.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""Identifies a function: the key of the trees that it replaces, and the indices of the results that the step
-reads.
+"""A function is identified by the key of the trees that it replaces, and by the indices of the results that
+are read outside these trees.
 """
 
 
@@ -77,14 +83,14 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the expressions ``roots`` with repeated parts replaced by calls of functions.
+        """Replace repeated parts of the expressions ``roots`` by calls of functions, and return the new
+        expressions.
 
-        The functions are added to ``outlined``. The result is None if nothing is repeated. ``owners`` maps
-        the unknowns of blocks to the number of their block.
+        The functions are added to ``outlined``. If nothing is repeated, the result is None. A block is a
+        system of equations that a loop solves. ``owners`` maps each unknown to the number of its block.
         """
-        # The level of a value is the index of the last block on which it depends. The level of a call is the
-        # largest level among its inputs. The results of a call must have the level of the call, because the
-        # call and its results must belong to the same loop.
+        # The level of a value is the number of the last block on whose unknowns the value depends. The level
+        # of a call is the largest level of its inputs.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -95,11 +101,11 @@ class Outline:
             # Simplification may have removed some of the chosen calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # Each result of a call is a node of its own. Only the node of result 0 is counted, so that
-                # each call counts once.
+                # Each result of a call is a separate node. Only the node of result 0 is counted, so each
+                # call is counted once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # A function with a single call is dropped in the next round.
+            # The next round omits the trees of functions that have fewer than two calls.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
@@ -111,9 +117,10 @@ class Outline:
     ) -> tuple[list[Expr], dict[str, Shape]]:
         """Create one function for each entry of ``chosen``.
 
-        The result contains ``roots`` with calls of the functions, and the shape of each function.
+        Return the expressions ``roots`` with calls of these functions, and a dictionary that maps the name of
+        each function to its shape.
         """
-        # Each round numbers its functions from 1.
+        # The functions of an earlier round of ``run`` are discarded.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
         shapes: dict[str, Shape] = {}
@@ -134,7 +141,7 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # If two trees share a result, the first call computes it.
+                    # If two trees have the same result, the call for the first tree computes this result.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
@@ -144,13 +151,14 @@ class Outline:
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
-            # The level -1 means that a value depends on no block.
+            # A value has the level -1 if it depends on no unknowns.
             own = owners.get(node.payload, -1) if node.op == "sym" else -1
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, with one group for each function."""
-        # Removing a tree changes which results of other trees are read, so the loop repeats.
+        # After a tree is removed, the step may read other results of the remaining trees. Therefore the loop
+        # repeats.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -159,7 +167,8 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # A shape that occurs only once is not outlined, so its tree is removed.
+            # A function with a single call saves nothing. Therefore a tree is removed if no other tree has
+            # the same shape.
             left = [t for alike in kept.values() for t in alike]
             # If no tree was removed in this round, a further round would find the same groups.
             if len(left) == len(trees):
@@ -183,7 +192,7 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # The walk stops at results of trees: their operations will be inside functions.
+            # The walk stops at a result of a tree, because a function will compute this result.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
@@ -199,25 +208,23 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one call can compute the results ``read`` of a tree.
 
-        The level of a value is the index of the last loop on which the value depends. The level of the call
-        is the largest level among its inputs. One call is sufficient under two conditions:
-
-        - The results have the same level as the call.
-        - The nodes of the results were created after the nodes of the inputs.
+        One call is sufficient if the call and all these results belong to the same loop, and no input of the
+        call depends on a result.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # The call depends on all inputs, so it is inside the loop with the index ``deepest``. If a result has
-        # a lower level, it belongs outside this loop, and the tree is not outlined.
+        # ``deepest`` is the level of the call: the number of the last block on whose unknowns the inputs
+        # depend. A result with a lower level does not depend on these unknowns, so the loop of this block
+        # must not compute the result.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Nodes are numbered in the order of their creation, so a result has a larger number than its inputs.
-        # An input with a larger number than a result could depend on this result. Then the call would depend
-        # on itself.
+        # Nodes are numbered in the order of their creation. An input that was created after a result may
+        # depend on this result. But a call cannot read its own results.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
         """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after`` have other values than
-        ``before``. Raise MethodError if ``before`` is not finite at any test point.
+        ``before``. Raise MethodError if the values of ``before`` contain an infinity or a NaN at every test
+        point.
         """
         # The names are sorted, so every verification of a step uses the same test points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})

@@ -1,9 +1,9 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one operation reads the result of another operation, one function can execute both operations. The two
-operations then form a tree. Pairs of trees that occur often are joined to larger trees. The pairs that save
-the most lines of code are joined first. Trees with equal keys have the same operations, but may have
-different operands and coefficients.
+If only one assignment reads the results of another assignment, one function can execute both assignments.
+They can then be joined into one tree. Pairs of trees that occur often are joined into larger trees. The pairs
+that save the most lines of code are joined first. Trees with equal keys have the same operations, but may
+have different operands and coefficients.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined: operations that cost almost nothing, and exact flows of parts of the
-vector field.
+"""Operations that are never outlined. The first three cost almost nothing. The others are exact flows of
+parts of the vector field.
 """
 
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
 This number converts operations to lines. The files in ``generated/`` are the same for the values 2, 3 and 5
-(``orderconds regenerate --check``). The value matters for longer steps. For example, the step of cg:cg5 on
+(``orderconds regenerate --check``). Longer steps depend on the value. For example, the step of cg:cg5 on
 dipole has 471, 454 and 394 assignments for the values 2, 3 and 5.
 """
 
@@ -46,7 +46,7 @@ class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
     ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
-    false, the assignment is not joined with others.
+    false, no outlined function may execute the assignment.
     """
 
     assign: Assign
@@ -63,7 +63,7 @@ class Execution:
 
 @dataclass
 class Tree:
-    """Assignments that one function can execute.
+    """A group of assignments that an outlined function can execute.
 
     ``members`` are the indices of the assignments in the order of execution. The last assignment depends on
     all others.
@@ -115,15 +115,16 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Simplify an assignment w = c (d v) with coefficients c and d to w = (c d) v.
+        """If an assignment multiplies d v by c, replace it by the product of c d and v.
 
-        Other assignments do not change.
+        Here c and d are coefficients, and v is a variable. Other assignments do not change.
         """
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # For example, a stage computes h xi, and h xi/2 from h xi. Then h xi has a second reader, so its tree
-        # cannot be joined with the tree of its first reader. Therefore h xi/2 is computed from xi.
+        # For example, a stage may compute h xi from a vector xi, and h xi/2 from h xi. If another assignment
+        # also reads h xi, then h xi has two readers and cannot be joined with either. Therefore h xi/2 is
+        # computed from xi.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -134,7 +135,7 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Return the assignments as trees. Trees are joined as long as this saves lines of emitted code."""
         self._find_users()
-        # Each assignment is first a tree of its own. ``owner`` maps each assignment to its tree.
+        # At the beginning each tree contains one assignment. ``owner`` maps each assignment to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         # Each round joins one kind of pair, so the number of trees decreases and the loop ends.
@@ -146,14 +147,14 @@ class Trees:
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
-                # Only a tree whose result has a single reader can be joined with the tree of this reader. The
-                # function of the joined tree does not return this result.
+                # If only one assignment reads the results of a tree, this tree can be joined with the tree of
+                # the assignment. The function of the joined tree does not return these results.
                 user = self._only_user(i)
                 # ``owner`` contains only assignments that may be joined.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # Two equal trees may be connected in different ways, so the key of the joined tree is
-                    # included.
+                    # Two pairs with equal trees can be connected in different ways. Therefore the key of a
+                    # pair contains the key of the joined tree.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -177,13 +178,14 @@ class Trees:
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate how many lines are saved if pairs of trees are joined."""
+        """Estimate how many lines of code are saved if all pairs in ``places`` are joined."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree of the pair also occurs outside such pairs, its function is still needed.
+        # A tree of the pair may also occur outside these pairs. Then its own function remains, and the
+        # function of the joined tree repeats the lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one, which saves about three lines.
         return k * 3 - copies
@@ -212,8 +214,7 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None represents a reader outside all trees. A value with such a reader must be a result
-                    # of its tree.
+                    # The statement reads ``v`` outside all trees. The entry None represents this reader.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
             # The outputs of the program are also read outside all trees.
@@ -230,8 +231,7 @@ class Trees:
         if len(users) != 1:
             return None
         (user,) = users
-        # Operations inside and outside a loop are executed different numbers of times, so they are not
-        # joined.
+        # A loop repeats its operations, so these operations are not joined with operations outside the loop.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
@@ -254,7 +254,7 @@ class Trees:
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
             for v in self.executions[i].assign.targets:
-                # The results are counted from 1, so that -1 denotes the first result.
+                # The first result has the position -1, so the results are counted from 1.
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
@@ -264,8 +264,8 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # The operation of a sum contains the values of its coefficients, so None replaces this operation.
-            # The kind distinguishes sums in the algebra from sums in its dual.
+            # The operation of a sum contains its coefficients. The key must not contain their values, so None
+            # replaces this operation. The kind distinguishes sums in the algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -273,7 +273,7 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Return True if a tree has enough operations to be worth a call."""
         results = self.results(tree)
-        # The caller computes the operands, so they are not counted.
+        # The inputs are computed outside the function, so their operations are not counted.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
         # A call takes about four lines, so a shorter function would save nothing.
@@ -315,15 +315,12 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     Equal coefficients have equal labels. The coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
-    # Sums with equal coefficients, or with the coefficient 1, need fewer products. Therefore the key
-    # records both cases.
+    # A sum needs fewer products if some of its coefficients are 1 or equal to each other. Therefore the key
+    # records these coefficients.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the coefficients of a sum in the order of their first appearance, each once.
-
-    The coefficient 1 is left out.
-    """
+    """Return the distinct coefficients of a sum, except 1, in the order of their first appearance."""
 
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

@@ -1,7 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
 One call computes all Stumpff functions c_k of an argument. Powers become products. This module adds names for
-the results of calls and products. Names that are added inside a loop are not read after the loop.
+the results of calls and products. A name that it adds inside a loop is not read outside this loop.
 """
 
 from __future__ import annotations
@@ -105,9 +105,9 @@ class Beginning:
 class Iteration:
     """A loop that solves implicit equations, ready to print (see :class:`codegen.ir.kernel.Loop`).
 
-    - ``kept`` are the names that the body assigns and that statements after the loop read.
+    - ``kept`` contains the names of assignments in the body that are read after the loop.
     - ``matrix`` contains the entries of Newton's matrix, row by row.
-    - ``newton`` contains the statements that only the matrix needs.
+    - ``newton`` contains the statements that compute this matrix.
 
     Without Newton's method ``matrix`` and ``newton`` are empty.
     """
@@ -143,7 +143,7 @@ class Arrangement:
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
-        # Outlined functions are defined in the kernel itself.
+        # The kernel itself defines the outlined functions, so they are not library functions.
         called |= {name for name in names if name.partition(".")[0] not in outlined}
         # An outlined function may itself call library functions.
         for _, inner in self.outlined:
@@ -180,14 +180,14 @@ def arrange(kernel: Kernel) -> Arrangement:
 
     The arithmetic operations keep their order, so rounding errors do not change.
     """
-    # In some target languages a loop has no scope of its own, so all loops share one counter of names.
+    # In some target languages a loop has no scope of its own. Therefore names in different loops differ.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
-    # Error estimates and outputs may need the same calls, so they are rewritten together.
+    # Outputs and error estimates can share calls, so one list contains both.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The first call for an argument computes all Stumpff functions c_k of this argument that later statements
-    # read. Therefore the indices k are recorded first.
+    # One call computes all Stumpff functions c_k of an argument. Therefore all indices k are recorded before
+    # the first statement is rewritten.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -223,18 +223,18 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions of a statement that are computed outside loops."""
+    """Return the expressions of a statement that can share calls with other statements."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A ``Start`` statement may be skipped at run time, so its calls are not shared with other statements.
+    # A ``Start`` statement may be skipped at run time, so other statements cannot read its calls. The body
+    # of a loop has its own calls.
     return statement.starts if isinstance(statement, Loop) else []
 
 
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # Stumpff functions in the body have arguments that depend on the unknowns. Therefore the body does not
-    # share calls of Stumpff functions with the statements outside the loop.
+    # The body has its own calls of Stumpff functions, because their arguments depend on the unknowns.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -256,7 +256,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel. No new name may be equal to one of them."""
+    """Return a dictionary whose keys are all names of the kernel. A new name must differ from all keys."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -267,7 +267,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # ``Kernel.expressions`` returns all expressions that the later statements read.
+    # The kernel ``rest`` consists of the later statements, so its expressions contain all names read later.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
@@ -276,9 +276,9 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 class _Scope:
     """Rewrites the expressions of one block of statements: the step outside loops, or the body of a loop.
 
-    - ``known`` maps nodes to the expressions that replace them.
-    - ``orders`` maps each argument of Stumpff functions to the indices k of the functions c_k to compute.
-    - ``pending`` are new statements that come before the next statement.
+    - ``known`` maps the id of each node to the expression that replaces the node.
+    - ``orders`` maps the id of each argument to the indices k of its Stumpff functions c_k.
+    - ``pending`` contains new statements, which are placed before the next statement.
     """
 
     taken: dict[str, int]
@@ -292,7 +292,7 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
-        # The block may be skipped at run time, so no later statement may use its names.
+        # A block can be skipped at run time. Therefore later statements do not read the names of the block.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -318,13 +318,12 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        A result of a call already has a name. The assignment of such a result is omitted if ``kept`` is
-        false.
+        If ``kept`` is false, the assignment of a result of a call is omitted, because the call names its
+        results.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # If ``value`` is the symbol of a result of a call, no new name is needed. Later expressions then use
-        # this symbol in place of ``let.name``.
+        # If ``value`` is a result of a call, later expressions use its symbol in place of ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -363,14 +362,14 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are the ids of arguments before rewriting.
+        # The keys of ``orders`` are the ids of the original arguments, but ``argument`` is rewritten.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # Later uses of c_k with this argument find the name in ``known`` and need no new call.
+            # The name replaces c_k of this argument in later expressions, so no new call is needed.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -397,7 +396,7 @@ class _Scope:
         # In emitted code, powers of up to three factors are written as products such as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
-        # The leading bit of n is 1, so the product starts with the base, and the other bits follow.
+        # The leading bit of n is 1, so the product starts with the base. The loop visits the other bits.
         result = base
         # Binary powering: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
@@ -416,7 +415,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # The key contains a space, so it differs from every name of a kernel.
+            # The key of the counter contains a space, so no name of a kernel is equal to this key.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:
