@@ -43,26 +43,24 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program has no flows and the group is not a cotangent bundle, all variants of the group give the
-    # same kernel. Then only the order of factors in products is chosen: the given order, or constant factors
-    # first.
+    # Without flows and without a cotangent bundle, all variants of the group give the same kernel. In this
+    # case only the order of factors in products is chosen: the given order, or constant factors first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # A run applies deferred flows only at its beginning or end. So only the rest of the program, called the
-    # core, is compared. Run-time inputs are sampled in every step, so no flow can be deferred if the scene
-    # has run-time inputs.
+    # Deferred flows are applied once in a run, so only the program of a step (the core) is compared. Run-time
+    # inputs are sampled in every step, so a scene with run-time inputs has no deferred flows.
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # All variants are compiled. The formulas of the group and of the scene can share subexpressions, so the
-    # time of a variant is known only from its kernel.
+    # The formulas of the group and of the scene can share subexpressions. Therefore the time of each variant
+    # is estimated from its compiled kernel.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
-    # Kernels of different candidates may be equal, so the chosen kernel is compared with ``is``.
+    # Two candidates may have equal kernels, so ``is`` identifies the chosen candidate.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
@@ -73,16 +71,16 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
     If some kernels contain outlined functions, only these kernels are compared.
     """
-    # Functions are outlined only in long steps. The time of a long step is limited by the instruction cache,
-    # not by latency, so the shorter code with outlined functions is preferred.
+    # Functions are outlined only in long steps. The instruction cache limits the speed of a long step, so
+    # shorter code with outlined functions is preferred.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
     """Return the estimated time of a step and its number of operations. The unit of time is one addition.
 
-    A function call counts as :data:`CALL` operations. The number of operations decides between kernels with
-    equal times.
+    A function call counts as :data:`CALL` operations. If two kernels have equal times, the kernel with fewer
+    operations is preferred.
     """
     nodes = walk(kernel.expressions())
     # Symbols and constants cost nothing, and a change of sign is usually part of an addition.

@@ -62,7 +62,7 @@ def with_carries(kernel: Kernel) -> Kernel:
                 f"the new value of {name} is not its old value plus an increment",
                 expected="a method that adds an increment to each coordinate of the old state",
             )
-        # A coordinate that the step does not change has no new rounding error, so its carry is kept.
+        # The step does not change this coordinate, so the carry does not change.
         if added.is_zero:
             sums.append(old)
             carries.append(space.sym(CARRY + name))
@@ -71,8 +71,8 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # The carry must be computed from the rounded sum, so the sum has a name. Without a name,
-        # ``total - old`` would be simplified to the increment, and the carry would be zero.
+        # The carry is computed from the rounded sum, which is the value of the symbol ``total``. Without this
+        # symbol, ``total - old`` would be simplified to the increment, and the carry would be zero.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -96,11 +96,12 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     """Return a body without the assignments whose values are not needed for ``outputs``."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
-    # The statements are visited from last to first, so all later uses of a name are known at its assignment.
+    # The loop visits the last statement first. At each statement, ``needed`` contains all names that later
+    # statements and ``outputs`` read.
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # A kernel that contains only this statement lists the expressions that the statement reads.
+        # The expressions of a kernel with only this statement are the expressions in the statement.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -113,7 +114,7 @@ _EMPTY = Kernel("", (), (), (), ())
 class Increments:
     """Computes e - x and f - 1 without cancellation of leading digits.
 
-    Here x is a symbol, e is an expression x + increment, and f is an expression 1 + increment.
+    Here x is a symbol, e is the sum of x and an increment, and f is the sum of 1 and an increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -138,15 +139,16 @@ class Increments:
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
-            # If a = x + d, then (a + b) - x = d + b. Here x cancels in the formula, so no digits are lost.
+            # If a = x + d, then (a + b) - x = d + b. The right-hand side does not contain x, so no leading
+            # digits cancel.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
             for factor, base in (e.args, e.args[::-1]):
-                # Let f be ``factor`` and b be ``base``. Then f b - x is (f - 1) b + (b - x). The differences
-                # f - 1 and b - x are computed without cancellation.
+                # With the factor f and the base b, f b - x = (f - 1) b + (b - x). Both differences on the
+                # right-hand side are computed without cancellation.
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest

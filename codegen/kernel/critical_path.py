@@ -26,9 +26,9 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 """Latency of operations. The unit is the latency of one addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
-cycles. The latency of a call is the latency of a polynomial that approximates the function.
-``benchmarks/emitted.py`` times the resulting steps. If the latency of a division is set to 2 or 8, the code
-of five explicit methods does not change. If the latency of a call is set to 3 or 12, only the code of
+cycles. A call is assumed to evaluate a polynomial that approximates the function.
+``benchmarks/emitted.py`` times the resulting steps. The exact values matter little. With 2 or 8 for a
+division, the code of five explicit methods does not change. With 3 or 12 for a call, only the code of
 splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
@@ -36,17 +36,17 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""A chain is rewritten if it is shorter than the longest chain by at most this time. The unit is the time of
-an addition.
+"""The largest difference between the times of the longest chain and of a rewritten chain. The unit is one
+addition.
 
 If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The values
-0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top change
-(``orderconds regenerate --check``).
+0, 2 and 4 give the same emitted files. If all chains are rewritten, the emitted splittings for fast_heavy_top
+change (``orderconds regenerate --check``).
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product has at most one late factor. A late factor is known late, usually because
-it is the result of a slow operation.
+"""A sum of products. Each product has at most one late factor. A late factor is usually the result of a slow
+operation.
 
 A key of the dictionary is a late factor. The key None belongs to the product without a late factor. An entry
 contains three values: a sign, the product of the factors that are constant in a run, and the product of all
@@ -66,25 +66,25 @@ def chain(kernel: Kernel) -> int:
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which their values are ready.
 
-    A processor reorders only the next few hundred instructions. Therefore operations that can run in parallel
-    with the longest chain must be near this chain in the code. Before the sort, times are rounded down to
-    multiples of the latency of a call. A sort by exact times would separate operations that read the same
-    values.
+    A processor looks only a few hundred instructions ahead. It executes two operations in parallel only if
+    they are near each other in the code. Before the sort, times are rounded down to multiples of the latency
+    of a call. A sort by exact times would separate operations that read the same values.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
-        # Every use of this name is the same node, so ``ready`` contains the time for all later uses.
+        # Later assignments read this symbol, so its time is stored in ``ready``.
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # The sort is stable, and no value is ready before its arguments. So each name is defined before its use.
+    # A value is ready no earlier than its arguments. Assignments with equal times keep their order. So each
+    # name is assigned before it is read.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` also yields the nodes at which it stops, so nodes with known times are skipped below.
+    # ``walk`` stops at nodes with known times. It also yields these nodes, so the loop skips them.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -95,8 +95,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves such products out of the loop over the steps. If ``spread`` is false, products
-    with sums are not expanded.
+    because a compiler moves such products out of the loop over the steps. If ``spread`` is false, no other
+    operations are rewritten.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -105,8 +105,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 class _Chains:
     """Shortens chains of operations in the expressions ``roots``.
 
-    For each node, ``ready`` contains the time at which its value is known. ``follow`` contains the duration
-    of the longest chain of operations that follow the node.
+    For each node, ``ready`` contains the time at which the value of the node is known. ``follow`` contains
+    the duration of the longest chain of operations after the node.
     """
 
     roots: tuple[Expr, ...]
@@ -126,17 +126,17 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # The backward pass finds the longest chain after each node.
+        # A backward pass computes ``follow``.
         for node in reversed(self.nodes):
-            # A root without readers is the last node of its chains, so its entry in ``follow`` is 0.
+            # If no node reads a root, no operation follows the root, and its entry in ``follow`` is 0.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
-        # Only the roots are needed at the end of a step, so they determine the critical path.
+        # Every chain leads to a root, so the longest chain ends at the root that is ready last.
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
-        # The level of a node is the largest number of slow operations in one chain up to the node.
+        # The level of a node is the largest number of slow operations in a chain that ends at the node.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
         # A value is fixed if it is constant in a run.
@@ -145,12 +145,11 @@ class _Chains:
 
     def rewritten(self) -> tuple[Expr, ...]:
         """Return the expressions ``roots`` with shortened chains."""
-        # Without ``spread`` no node is expanded, and only constant factors are combined below.
+        # If ``spread`` is false, no node is expanded. Only constant factors are combined.
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # ``_make`` does not simplify, so a node that is not rewritten keeps its operation and its
-            # rounding error.
+            # ``_make`` creates the node without simplification, so the operation keeps its rounding error.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -166,27 +165,27 @@ class _Chains:
         """Return the ids of the nodes that are expanded to sums of products.
 
         Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        At least one operation that reads the node cannot be part of the expansion.
+        The expansion ends at the node, because at least one operation that reads the node must wait for the
+        complete sum.
         """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # Shortening a chain through ``arg`` and ``node`` gains nothing if another chain is longer by
-                # more than ``SLACK``.
+                # A chain through ``arg`` and ``node`` is not rewritten if the longest chain is longer by more
+                # than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # For the square ``x * x``, ``others`` is empty. The test below then finds that the square is
-                # not linear in x.
+                # A square ``arg * arg`` is not linear in ``arg``. In this case ``others`` is empty, and
+                # ``linear`` is false.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # Let r be the results of slow operations with the level ``late`` that occur in ``arg``. A
-                # product of ``arg`` and a factor is linear in r if the level of the factor is lower than
-                # ``late``, because r does not occur in such a factor.
+                # Let r be a result of a slow operation in ``arg``, with the level ``late``. A factor of a
+                # lower level does not contain r, so the product of ``arg`` and this factor is linear in r.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``arg`` is expanded in two cases: ``node`` is not linear in r, or ``node`` has a higher
-                # level than ``arg``.
+                # If ``node`` is linear in r and has the level ``late``, the expansion continues to ``node``.
+                # Otherwise the expansion ends at ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -197,7 +196,8 @@ class _Chains:
         The late factors are results of slow operations of the given ``level``. Results of slow operations of
         a lower level count as ordinary factors.
         """
-        # The expansion depends on the rewritten node, so the key contains the id of this node.
+        # The expansion may contain the node ``self.new[node.id]``. This entry of ``new`` can change later, so
+        # the key contains the id of the node.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -205,24 +205,24 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # An expression of a lower level contains no late factor, so it is a single term with the key None.
+        # A node with a level below ``level`` contains no late factor. It is a single term with the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
             return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
-            # The sum is copied before terms are added, because ``_sum`` may return the same dictionary again.
+            # ``_sum`` stores its results for later calls, so terms are added to a copy.
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y is ready
-                # before c.
+                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y does not
+                # wait for c.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
-            # After this exchange, ``a`` is the factor with the lower level. The product can be expanded only
-            # if ``a`` contains no result of a slow operation of this ``level``.
+            # The factors are exchanged so that ``a`` has the lower level. If the level of ``a`` is below
+            # ``level``, ``a`` contains no late factor, and the product is expanded.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -235,10 +235,8 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two terms with the same late factor c (:data:`Sum`), for example c x + c y = c (x + y).
-
-        The terms and the result do not contain the factor c itself.
-        """
+        """Add two entries of a sum with the same late factor (:data:`Sum`). The entries do not contain this
+        factor."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -246,17 +244,17 @@ class _Chains:
         return self._known(self._known(steps) * rest)
 
     def _expression(self, total: Sum, space: Space) -> Expr:
-        """Return the sum of products as an expression. Terms that are ready early are added first."""
+        """Return the sum of products ``total`` as an expression."""
         terms: list[tuple[int, Expr]] = []
         for atom, (sign, steps, rest) in total.items():
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # As in Huffman coding, adding the two earliest terms first gives the earliest sum.
+            # As in Huffman coding, the two terms that are ready first are added first.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # If the signs differ, the negative term is subtracted from the positive one, and the result has a
-            # positive sign. If the signs are equal, the terms are added, and the sum has the same sign.
+            # Terms with equal signs are added, and the sum has their sign. Otherwise the negative term is
+            # subtracted from the positive term, and the sign is 1.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
@@ -275,7 +273,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Compute when a new node and its new arguments are ready, and return the node."""
+        """Compute the times of a new node and of its new arguments, and return the node."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

@@ -1,9 +1,9 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
 A splitting method composes flows of parts of the vector field. If a step ends and the next step begins with a
-flow of the same part, these two flows are joined into one. Only the first step of a run then has a separate
-leading flow. A flow that commutes with all other flows is applied once, after the last step, for all steps.
-Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
+flow of the same part, these two flows are joined into one. The leading flow of the first step is applied
+separately, at the beginning of a run. If a flow commutes with all other flows, the flows of all steps are
+joined into one flow after the last step. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program that is split into three programs for the beginning, the steps and the end of a run.
+    """The three programs for the beginning, the steps and the end of a run.
 
-    - ``begin`` is executed before the first step, or is None.
-    - ``core`` is executed in each step. Its final flow also includes the leading flow of the next step. The
-      duration of this joined flow is the variable :data:`LEAD`. The variable is ``later`` * h in all steps
-      except the last step of a run. In the last step it is ``last`` * h, because no step follows.
-    - ``finish`` is executed after the last step, or is None. Its flows have the duration :data:`ELAPSED`,
-      which is the sum of the durations of all steps of the run.
+    - ``begin`` is executed before the first step. It is None if no flows are joined.
+    - ``core`` is executed in each step. A joined flow in ``core`` includes the leading flow of the next step.
+      Its duration is the variable :data:`LEAD`. In the last step of a run, the value of LEAD is ``last`` * h,
+      because no step follows. In all other steps the value is ``later`` * h.
+    - ``finish`` is executed after the last step. It is None if no flow is deferred to the end of the run. The
+      flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """
 
     begin: Program | None
@@ -45,17 +45,17 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program contains other operations than flows, if no flow can be deferred to a
-    later step, or if no flow would remain in the steps.
+    The result is None if the program is not a composition of flows, if no flow can be deferred to a later
+    step, or if no flow would remain in the steps.
     """
     letters = word(program)
     if letters is None:
         return None
-    # ``commute`` compares two flows numerically at sample points. A symbolic test could miss flows that
-    # commute, because their Lie bracket may not simplify to zero.
+    # ``commute`` compares two flows numerically, because the symbolic Lie bracket of commuting flows may not
+    # simplify to zero.
     commute = commuting(scene)
-    # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
-    # stage time.
+    # If a flow of a part reads a stage time or has a duration other than h, all flows of this part remain in
+    # the steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flows of parts in ``free`` commute with all other flows, so they can be applied after the last step.
@@ -69,17 +69,17 @@ def part(program: Program, scene: Problem) -> Parted | None:
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # The durations are the same in all entries of ``joined``, so they are read from the first entry.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # No flow is in both ``heads`` and ``tails``. Otherwise two leading flows would belong to the same part,
-    # but all leading flows belong to different parts.
+    # ``heads`` and ``tails`` are disjoint. A flow in both sets would be a leading flow with the same part as
+    # another leading flow. But all leading flows belong to different parts.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core does not contain the flows in ``heads``, because the final flows of the previous step include
     # them. These final flows therefore have a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # The free flows of all n steps are joined: exp(h X)^n = exp(n h X), where X is the vector field of a
-    # part.
+    # Let X be the vector field of a part in ``free``. Its flows of n steps are joined into one flow:
+    # exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # The three programs are new, so ``verify`` checks that each of them is well-formed.
+    # ``verify`` checks that each new program is well-formed.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -102,10 +102,9 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if the duration of a flow is h. The coefficient of h is rounded to a double before the
-    comparison.
-    """
-    # The coefficient may be a ball (a number with an error bound), which is never exactly 1.
+    """Return True if the duration of a flow is h."""
+    # The coefficient of h may be a ball (a number with an error bound). A ball is never exactly 1, so the
+    # coefficient is rounded to a double.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
@@ -133,21 +132,22 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # ``k`` is the index of ``tail`` if the flows are counted from the end of ``kept``. Counted from
-            # the beginning, its index is ``j``.
+            # The index ``k`` of ``tail`` counts from the end of ``kept``. The index ``j`` of ``tail`` counts
+            # from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             # If i = j, ``head`` and ``tail`` are the same flow, so there are no two flows to join.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows read their duration from one variable, so they must have equal durations.
+    # All joined flows read the same duration variable. So only pairs with the durations of the first pair are
+    # joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # The first n flows commute pairwise, so each of them can be applied first.
+    # If the first n flows commute pairwise, each of them can be moved to the beginning.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -162,7 +162,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
-    # All stage times are copied. The kernel of the new program assigns only those that its flows read.
+    # All stage times are copied. The kernel later omits the stage times that no flow reads.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.

@@ -31,8 +31,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # With the option COMBINED no functions are outlined. Outlined functions could have the same names as
-    # functions in the kernel of the step.
+    # With the option COMBINED, no functions are outlined. An outlined function could have the same name as a
+    # function in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     # The program has one output for each power of theta, starting with theta^1.
     degree = len(program.outputs)
@@ -44,7 +44,7 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
     domain = SharedArguments()
     names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
     x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))
-    # The group acts on the old state, so the result lies on the manifold for every x.
+    # The group action maps the manifold to itself, so the result lies on the manifold for every x.
     (point,) = ActExp().evaluate(problem, domain, (x, y))
     ends: list[Expr] = list(flatten(problem.state[0].kind, point))
     taken = {*names, *problem.symbols, *kernel.scalars}

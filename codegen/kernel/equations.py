@@ -1,7 +1,8 @@
-"""Implicit equations u = g(u) of a step. Other modules convert the equations to loops.
+"""Implicit equations u = g(u) of a step, and the matrix of Newton's method.
 
-The values g(u) are called images. After the loop, later statements read the unknowns in place of the images.
-Newton's matrix is 1 - g'.
+The values g(u) are called images. Newton's matrix is 1 - g'(u). For equations r(u) = 0 with a residual r,
+Newton's matrix is -r'(u). At the solution, the unknowns u equal the images. Therefore the statements after
+the equations read the unknowns in place of the images.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are multiplied out. With
 more unknowns, sums that are constant in a step are kept as single factors.
 
-With few unknowns, kept sums occupy registers that the sweeps need. With many unknowns, multiplying out makes
-the emitted code longer. Near the limit the choice matters little: the kernel of vcf:cf4 on dipole
-(12 unknowns) has 439 assignments if the sums are kept, and 472 if they are multiplied out.
+With few unknowns, the sweeps need the registers that single factors would occupy. With many unknowns,
+multiplying out makes the code longer. Near the limit the choice matters little. For example, the kernel of
+vcf:cf4 on dipole has 12 unknowns and 439 assignments with single factors. Multiplied out, it has 472.
 """
 
 LONGEST_MATRIX = 1500
@@ -40,7 +41,8 @@ limit of 6000 gives the same kernels.
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations. All operations that are not listed, such as additions and products, have the cost 1.
 
-The weights are rough latencies. They only decide whether a value that is read after a loop is computed again.
+The costs are rough latencies. They decide whether a value is corrected after a loop or computed again
+(:func:`compared`).
 """
 
 
@@ -49,11 +51,12 @@ class Block:
     """A block of equations u = g(u) as expressions.
 
     - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
-    - ``images`` are the values g(u), or the residuals of the equations.
+    - ``images`` are the values g(u). In the result of :func:`compared`, they are the residuals r(u).
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
     - ``leading`` is true for the simplified Newton method, whose matrix is expanded to first order in h.
     - ``changes`` are the names of the variables that contain the changes of the unknowns in the last sweep.
-    - ``kept`` contains the names and expressions of body values that later statements read.
+    - ``kept`` contains the names and expressions of values that each sweep computes for the statements after
+      the loop.
     """
 
     label: str
@@ -67,20 +70,20 @@ class Block:
     kept: tuple[tuple[str, Expr], ...] = ()
 
     def targets(self) -> tuple[Expr, ...]:
-        """The expressions that each sweep computes: the images, and the body values that are read later."""
+        """The expressions that each sweep computes: the images, and the expressions in ``kept``."""
         return (*self.images, *(x for _, x in self.kept))
 
 
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
+    """Return the block ``entered`` with residuals in place of images, and with Newton's matrix.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
     has no residuals, or if the residuals cannot be expanded in h.
 
-    Later statements read some values of the body. Newton's method changes the unknowns after the body of the
-    last sweep. Therefore these values are corrected by a formula of first order in the change. If the
+    Statements after the loop read values that the loop body computes. The last sweep computes these values
+    before it changes the unknowns. Therefore ``env`` receives values with a first-order correction. If a
     correction takes at least half of the operations of a new computation, the value is computed again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
@@ -91,7 +94,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # ``NormalForms`` treats each expression in ``free`` as a single symbol and does not multiply it out.
+    # The sums in ``free`` are not multiplied out: ``NormalForms`` treats each of them as a single symbol.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
@@ -102,8 +105,7 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Only a value in a vector space can be corrected by adding its derivative times the change of the
-        # unknowns.
+        # A correction is added to the value, so the value must be in a vector space.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -134,7 +136,7 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the expressions in ``env`` that are sums or differences. Variables in ``inside`` are skipped."""
+    """Return the sums and differences among the values of all variables that are not in ``inside``."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
@@ -146,9 +148,9 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that do not depend on the unknowns or on h."""
+    """Return the values that contain neither h nor an unknown."""
     moving = {*unknowns, "h"}
-    # ``walk`` returns arguments before the nodes that use them, so the entries of the arguments are known.
+    # ``walk`` yields the arguments of a node before the node, so ``depends`` already contains the arguments.
     depends: dict[int, bool] = {}
     for node in walk(values):
         own = node.op == "sym" and node.payload in moving
@@ -177,7 +179,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return the number of operations in the matrix ``rows`` that do not also occur in ``images``."""
-    # Each sweep computes the images, so the matrix can use the results of their operations.
+    # Each sweep computes the images, so the operations that the matrix shares with the images cost nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
@@ -189,12 +191,12 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # Reading the unknown in place of a symbol or a number would save nothing.
+            # An image that is a symbol or a number is not replaced, because this would save no operation.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return the value of a variable, with each image replaced by the unknown that equals it."""
+        """Return ``value`` with each image g(u) replaced by the equal unknown."""
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
