@@ -1,9 +1,9 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
-Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Each exponential contains
-Stumpff functions of the squared norm of its argument. The squared norms of h xi/2 and -h xi/2 are equal, but
-their expressions differ. This module detects that both expressions are equal as polynomials in symbols and in
-the results of earlier calls. Equal arguments then need one call.
+Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Here h is the step size, and xi
+is an element of the Lie algebra. Each exponential contains Stumpff functions of the squared norm of its
+argument. The squared norms of h xi/2 and -h xi/2 are equal, but their expressions differ. This module expands
+both expressions as polynomials and finds that the polynomials are equal. Equal arguments need only one call.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""Two arguments of Stumpff functions are compared only if each has at most this number of nodes.
+"""Arguments of Stumpff functions with more nodes than this number are not compared.
 
-Equal angles occur in implicit stages. In the methods of the gallery these angles have 12 to 42 nodes, so the
-limit includes all of them. Arguments of explicit stages have hundreds or thousands of nodes.
+Equal arguments occur in implicit stages. In the methods of the gallery, these arguments have 12 to 42 nodes.
+Arguments in explicit stages have hundreds or thousands of nodes.
 
 Limits of 64, 128 and 256 give the same kernels for nine methods of the gallery. The limit 32 changes only one
 of these kernels: a step of vcf:cf4 on dipole then has 286 operations in place of 301.
@@ -26,8 +26,9 @@ of these kernels: a step of vcf:cf4 on dipole then has 286 operations in place o
 
 
 class SharedArguments(ExprDomain):
-    """An arithmetic of expressions. Arguments of Stumpff functions that are equal as polynomials become one
-    node.
+    """Symbolic arithmetic. Equal arguments of Stumpff functions become one expression.
+
+    Two arguments are equal if their polynomials are equal.
     """
 
     def __init__(self, space: Space | None = None) -> None:
@@ -37,17 +38,17 @@ class SharedArguments(ExprDomain):
         self.shared: dict[int, Expr] = {}
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the node of a function call. Calls of a Stumpff function have the same node if their
-        arguments are equal as polynomials.
+        """Return the expression of a function call. Equal arguments of a Stumpff function give the same
+        expression.
         """
-        # Only Stumpff functions are compared, because a step spends most of its time in them.
+        # Only arguments of Stumpff functions are compared, because these functions need most of the time.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the earliest argument of a Stumpff function that equals ``argument`` as a polynomial."""
-        # Expanding a polynomial is slow, so results are stored by node number.
+        """Return the first known argument that equals ``argument``. If there is none, return ``argument``."""
+        # The expansion as a polynomial is slow, so the result for each node is stored.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)
         return self.shared[argument.id]
@@ -61,7 +62,7 @@ class SharedArguments(ExprDomain):
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # Polynomials are dicts and have no hash, so angles are compared one by one.
+        # A polynomial is a dict, which cannot be a key. Therefore polynomials are compared one by one.
         for known, first in self.arguments:
             if known == polynomial:
                 return first

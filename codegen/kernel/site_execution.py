@@ -23,8 +23,8 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Their results are not stored: each sweep that reads a result computes it again. The sums
-that :mod:`codegen.kernel.site_plan` selects are an exception.
+"""Cheap operations. Each sweep that needs a result computes the result again. Only the sums that
+:mod:`codegen.kernel.site_plan` selects are stored.
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
@@ -36,11 +36,11 @@ class Content:
     """The content of a sweep over the sites.
 
     - ``about`` describes the sweep.
-    - ``stored`` contains pairs (rows, variable that is stored in these rows).
-    - ``unknowns`` are the unknowns u of equations u = g(u). Without Newton's method, the sweep replaces the
-      unknowns by g(u).
+    - ``stored`` contains pairs (rows, variable). The sweep stores the variable in these rows.
+    - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
+      g(u).
     - ``measured`` is empty or contains two rows. At each site, the first row stores the largest change of an
-      unknown, and the second row stores the largest absolute value.
+      unknown. The second row stores the largest absolute value of an unknown.
     """
 
     about: str
@@ -80,7 +80,7 @@ class Execution:
         self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
-        # No computed value may have a name that users have chosen.
+        # Computed values must not use names that users have chosen.
         self.taken = {*problem.symbols, *problem.runtime, "h", TIME, *totals.values()}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}
@@ -116,15 +116,15 @@ class Execution:
         for target, value in zip(assign.targets, results, strict=True):
             self.env[target] = value
             for k, x in enumerate(flatten(target.kind, value)):
-                # If several variables have the same expression as a value, the first variable gives the name.
+                # If several variables have the same expression, the first variable names the expression.
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _evaluated(
         self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
     ) -> tuple[Value, ...]:
-        """Return the results of formulas of the scene at a point.
+        """Return the results of an operation that evaluates formulas of the scene.
 
-        The formulas also read the points of neighbours. An earlier sweep has stored these points.
+        The values at neighbours are read from the arrays of the lattice.
         """
         roots, dim = self._roots(operation), self.problem.group.dim
         values = evaluate(roots, self.domain, self._around(variables, args))
@@ -137,7 +137,7 @@ class Execution:
     def _roots(self, operation: Operation) -> list[Expr]:
         """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
         if isinstance(operation, Energy):
-            # The energy of a lattice is a sum over sites, and each site computes its share.
+            # The energy of a lattice is a sum over sites. The formula gives the term of one site.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
         # The energy is differentiated at a point whose coordinates are symbols, so the results are formulas.
         if isinstance(operation, Differential):
@@ -166,10 +166,10 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The numbers that say whether neighbours exist are known only at run time. They stay symbols.
+        # It is known only at run time which neighbours exist, so the numbers in ``exists`` remain symbols.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
-            # Ghosts are the states of sites outside the lattice.
+            # A ghost is a value that replaces the value of a neighbour outside the lattice.
             ghosts: list[Expr] = []
             if self.sites.outside:
                 ghosts = evaluate(list(self.sites.outside[offset]), self.domain, values)
@@ -184,13 +184,12 @@ class Execution:
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
         """Return the symbols of a variable at a neighbour, and record their loads.
 
-        If the neighbour lies outside the lattice, ``ghosts`` replace the values of the variable. Ghosts may
-        depend on time.
+        ``ghosts`` are the values of the variable if the neighbour lies outside the lattice.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # New symbols are needed in two cases: the variable does not belong to the old state, or one of these
-        # symbols already has another ghost.
+        # A variable outside the old state needs new symbols. The ghosts of the old state may depend on time.
+        # If a symbol in ``loaded`` already has a different ghost, new symbols are needed, too.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -202,8 +201,7 @@ class Execution:
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
         """Return the sweep that stores the variables in ``content``.
 
-        ``sums`` contains a pair (name, row) for each sum over all sites. The terms of the sum are in this
-        row.
+        ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms.
         """
         # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
@@ -216,7 +214,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The ghosts are listed in the order of ``loads``, because a set has no fixed order.
+            # The order of ``loads`` is fixed. The order of ``around`` is not, because ``read`` is a set.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The formulas of the ghosts may read further values at the site. These values are loaded, too.
@@ -243,10 +241,9 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes the expressions ``ends``.
 
-    The symbols ``symbols`` denote the numbers that the sweep reads.
-
-    ``hints`` maps the ids of expressions to preferred names. ``taken`` contains the names in use, and this
-    function adds the new names. ``totals`` are the names of sums over all sites.
+    ``symbols`` are the names of the numbers that the sweep reads. ``totals`` are the names of sums over all
+    sites. ``hints`` maps the ids of expressions to preferred names. ``taken`` contains all names in use. This
+    function adds the names of new variables to ``taken``.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

@@ -38,8 +38,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # This program only lists the flows for reports. The kernel is built from ``word``, the flows with their
-    # durations.
+    # The program only lists the flows for reports. The kernel is built from ``word``.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -55,7 +54,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
 
 def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:
     assert scene.sites is not None
-    # A summand may have several flows, such as the flows of even and of odd pairs.
+    # A summand of the field may have several flows, for example one for even pairs and one for odd pairs.
     listed = [(flow, duration) for summand, duration in word for _, flow in summand.flows]
     sweeps: list[Sweep] = []
     index: dict[int, int] = {}
@@ -83,18 +82,17 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
-        # The formulas consist of one block for each site of the pair. Block k is the generator of site k. The
-        # generator is constant along the flow.
+        # ``roots`` contains ``dim`` numbers for each site: its generator, which is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}
 
     schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
-    # A sweep over pairs changes the new state in place, because each site belongs to one pair only.
+    # In one sweep each site belongs to only one pair. Therefore a sweep over pairs can work in place.
     array = RESULT if part.symbols else STATE
-    # Side 0 is the site itself. Side 1 is the other site of the pair, the neighbour with the index 0. A Load
-    # contains the index of a neighbour, or OWN = -1 for the site itself.
+    # Side 0 is the site itself, and side 1 is the other site of the pair. In a Load, the site itself has the
+    # index -1 (OWN), and the other site has the index 0.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

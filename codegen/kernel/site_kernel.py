@@ -1,9 +1,8 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
-The field reads the states of neighbours. All other operations of a step program act on one site alone.
-Therefore one sweep stores the points at which the field is evaluated, and the next sweep evaluates the field.
-A sum of vectors is stored if one of its terms then need not be stored. All other sums are computed again from
-stored terms.
+The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
+evaluated, and the next sweep evaluates the field. Some sums of vectors are stored in place of one of their
+terms. All other sums are computed again in each sweep that needs them.
 """
 
 from __future__ import annotations
@@ -42,9 +41,10 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 class SiteMethod:
     """A compiled method for a lattice.
 
-    ``problem`` is the problem of one site whose neighbours do not move. ``lowered`` is the program of a step
-    before the compiler passes, and ``program`` is the program after them. ``trace`` contains a report of each
-    pass. ``kernel`` contains the sweeps of the step.
+    ``problem`` is the problem of one site with fixed neighbours. For a splitting method, ``problem`` is the
+    scene. ``lowered`` is the program of a step before the compiler passes, and ``program`` is the program
+    after the passes. ``trace`` contains a report of each pass that changed the program. ``kernel`` contains
+    the sweeps of the step.
     """
 
     problem: Problem
@@ -57,11 +57,11 @@ class SiteMethod:
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
     """Compile ``method`` for the lattice ``scene``.
 
-    The compiler passes are verified on one site whose neighbours do not move. If ``newton`` is true, Newton's
-    method solves the implicit equations. Then the lattice must be one-dimensional.
+    The compiler passes use the problem of one site with fixed neighbours. If ``newton`` is true, Newton's
+    method solves the implicit equations, and the lattice must be one-dimensional.
 
-    A step may evaluate the field, the derivatives of the Hamiltonian H, or exact flows of a splitting.
-    MethodError is raised for a step that evaluates anything else.
+    A step may evaluate the field, the energy and its derivatives, or the exact flows of a splitting. Taylor's
+    method is permitted, too. MethodError is raised for a step that evaluates other formulas of the scene.
     """
     lowering = lowering_of(method.family)
     # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
@@ -69,7 +69,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
-    # The passes expect an ordinary problem. One site with fixed neighbours is such a problem.
+    # The passes cannot use a lattice, so they use the problem of one site with fixed neighbours.
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)
@@ -77,8 +77,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
-    # Operations that do not evaluate formulas of the scene act on one site alone, so every sweep can execute
-    # them.
+    # Operations that evaluate no formulas of the scene act on one site alone, so they are permitted.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"
@@ -89,8 +88,11 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
 
 
 def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Kernel:
-    """Return the kernel of a program on the problem of one site
-    (:func:`codegen.scene.site_scene.with_frozen_neighbours`)."""
+    """Return the kernel of a step program.
+
+    ``problem`` is the problem of one site (:func:`codegen.scene.site_scene.with_frozen_neighbours`). If
+    ``newton`` is true, Newton's method solves the implicit equations.
+    """
     assert problem.sites is not None
     return _kernel(program, problem, Planner(program, problem, problem.sites, newton=newton).step())
 

@@ -34,13 +34,13 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """Differentiates the images g of one block of equations u = g. The derivatives are taken with respect to
+    """Differentiates the images g of one system of equations u = g. The derivatives are taken with respect to
     the unknowns of a site and of its left and right neighbours.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` are the variables of the old state.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` contains the index of each block of the state whose values at neighbours enter the field.
+    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
     """
 
     problem: Problem
@@ -58,7 +58,7 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
+        ``places`` contains the numbers ``size``, ``residual``, ``border`` and ``matrix`` of the result.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.
@@ -72,7 +72,7 @@ class Linearisation:
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         self.inside = {t for assign in solve.body for t in assign.targets}
-        # The images are computed at the site itself. They contain the unknowns of the neighbours as symbols.
+        # The images of one site contain symbols for the unknowns of the site and of its neighbours.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
         # The images are differentiated with respect to the unknowns of the left neighbour, the site and the
         # right neighbour, in this order.
@@ -81,8 +81,8 @@ class Linearisation:
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
-            # If the field does not read a neighbour, ``row`` has no columns for this neighbour. The entries
-            # of the matrix are then zero.
+            # If the field does not read a neighbour, ``row`` has no columns for this neighbour, and the
+            # block of this neighbour is zero.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
@@ -120,15 +120,15 @@ class Linearisation:
         return name
 
     def value(self, var: Var, site: int) -> Value:
-        """Return the value of a variable at ``site``, as an expression in stored numbers. ``site`` is
-        :data:`OWN`, or the index of a neighbour.
+        """Return an expression for the value of a variable at a site. ``site`` is :data:`OWN`, or the index
+        of a neighbour.
         """
         # The same variable has different values at the site and at its neighbours.
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
-            # An expensive value from outside the equations is constant in the iteration, so it is read from
-            # memory. A cheap value is computed again.
+            # The iteration does not change values from outside the equations. Expensive values are read from
+            # memory, and cheap values are computed again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
                 return self.values[key]
@@ -145,8 +145,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # Only variables that differ between sites have rows. A single number such as the time was returned
-        # above.
+        # Single numbers such as the time have no rows. All other variables have rows.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -157,9 +156,9 @@ class Linearisation:
         return tuple(map(self.domain.space.sym, names))
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
-        """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
-        # The field at a neighbour also reads the next neighbour. If the field at a neighbour were permitted
-        # here, the matrix would not be block-tridiagonal.
+        """Return the field at a stage. The field reads this stage at the site and at its neighbours."""
+        # The field at a neighbour reads sites at distance 2. With such terms the matrix is not
+        # block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",

@@ -1,9 +1,9 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. For the
-equations u = g(u) of an implicit method, several sweeps are repeated. The last of these sweeps replaces the
-unknowns u by their images g(u). For a sum over all sites, one sweep stores the term of each site, and later
-sweeps read the sum.
+If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. An implicit
+method solves equations u = g(u) by iteration, and each iteration executes the same sweeps. The value g(u) is
+called the image of the unknown u. In fixed-point iteration, the last sweep replaces the unknowns by their
+images. For a sum over all sites, one sweep stores the term of each site, and later sweeps read the sum.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows for the stopping rule.
+"""The number of rows of the workspace that the stopping rule uses.
 
 For each site, one row contains the largest change of an unknown, and the other row contains the largest
 absolute value of an unknown.
@@ -49,17 +49,17 @@ class _Needs:
 
 @dataclass(frozen=True)
 class _Block:
-    """The equations of a block, and the indices of the first and the last sweep of an iteration."""
+    """A system of implicit equations, and the indices of the first and the last sweep of an iteration."""
 
     solve: Solve
     first: int
     last: int
 
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
-        """Return the unknowns that the sweep with the index ``number`` sets, as pairs (unknown, new value).
+        """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The sweep before the first iteration sets the starting values. The last sweep of an iteration sets the
-        images.
+        The sweep before the first iteration computes the starting values of the unknowns. The last sweep of
+        an iteration computes the images. All other sweeps have no pairs.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -120,15 +120,15 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each block. ``count`` is the number of rows of the
-        workspace that are in use.
+        """Return the step with a Newton matrix for each system of implicit equations. The variables use the
+        first ``count`` rows of the workspace.
 
         MethodError is raised if the equations contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # After the rows in use, the workspace contains the residuals, the border (for periodic chains only),
-        # and the matrix. :class:`codegen.ir.site_step.SiteNewton` defines the border.
+        # The next rows of the workspace contain the residuals, the border (for periodic chains only), and the
+        # matrix. :class:`codegen.ir.site_step.SiteNewton` defines the border.
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
@@ -146,13 +146,13 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # For each site, the workspace contains three square submatrices. The matrices of different equations
-        # use the same rows, because the equations are solved one after the other.
+        # For each site, the workspace contains three square submatrices of the Newton matrix. All systems of
+        # equations use the same rows, because the systems are solved one after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """The indices of the blocks of the state whose values at neighbours enter the field."""
+        """The indices of the blocks of the state that the field reads at neighbours."""
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -186,16 +186,16 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours. Therefore the unknowns are replaced by their
-                # images in a separate sweep, after all sites have read them.
+                # Each site reads the unknowns of its neighbours. Therefore the unknowns change only in a
+                # further sweep, after all sites have read the old values.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
-            # After the iteration the unknowns contain the images, so later statements read the unknowns.
+            # The solution satisfies u = g(u), so later statements read the unknown u in place of the image.
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return ``solve`` with each image of an earlier block replaced by the unknown with this image."""
+        """Return ``solve`` with unknowns in place of the images of earlier equations."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -206,8 +206,8 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # If the field reads a point at neighbouring sites, an earlier sweep must store the point. Unknowns
-        # and the old state are stored already.
+        # If the field reads a point at neighbours, an earlier sweep must store the point. Unknowns and the
+        # old state need no further sweep, because they are always stored.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -222,7 +222,7 @@ class Planner:
             self.makers[target] = assign
 
     def _terms(self, number: int) -> list[Var]:
-        """Return the terms of those sums over all sites that are added after the sweep ``number``."""
+        """Return the variables that are summed over all sites after the sweep ``number``."""
         return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
 
     @cached_property
@@ -235,10 +235,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        A sum is stored if one sweep computes both the sum and one of its terms, and if no other assignment
-        reads this term. The term itself is then not stored. With this rule a 2N scheme (a low-storage
-        Runge-Kutta method) stores only one element of the Lie algebra. In programs with implicit equations no
-        sums are stored.
+        If one sweep computes a sum and one of its terms, and no other assignment reads this term, the sum is
+        stored in place of the term. Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one
+        element of the Lie algebra for each site. In programs with implicit equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -255,7 +254,7 @@ class Planner:
                 self.sums.add(target)
 
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
-        """Add to ``need`` all variables that the sweep ``number`` computes or reads to obtain ``roots``."""
+        """Find all variables that the sweep ``number`` needs for ``roots``, and add them to ``need``."""
         waiting = list(roots)
         while waiting:
             var = waiting.pop()
@@ -297,14 +296,14 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # A value may be overwritten by the last sweep that reads it. If this sweep reads the value at
-            # neighbouring sites, only the next sweep may overwrite it.
+            # The last sweep that reads a value may overwrite the value. If this sweep reads the value at
+            # neighbours, other sites still need the value, and only the next sweep may overwrite it.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # Sorted rows make the layout of the workspace the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before a block stores the starting values of the unknowns, so it reserves rows for the
+            # The sweep before the first iteration stores the starting values, so it reserves the rows of the
             # unknowns.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
@@ -327,7 +326,7 @@ class Planner:
         return next(range(place.start, place.stop) for block, place in places if block.name == name)
 
     def _ordered(self, variables: Iterable[Var]) -> list[Var]:
-        """Return variables in the order in which the program defines them: inputs first, then unknowns."""
+        """Return the variables in a fixed order: inputs, unknowns, and then all computed variables."""
         wanted = set(variables)
         unknowns = [u for block in self.blocks for u in block.solve.unknowns]
         listed = [*self.program.inputs, *unknowns, *(t for a in self.order for t in a.targets)]
@@ -367,7 +366,7 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # With Newton's method this sweep stores residuals. The solver then changes the unknowns.
+            # With Newton's method, this sweep stores residuals, and only the solver changes the unknowns.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

@@ -1,9 +1,9 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
 The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. Here g
-is a covector near the differential of the energy, and eta is the displacement of a step. The energies before
-and after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its
-share of e before the shares are added. The shares are small, so the sum e has a small rounding error.
+approximates the differential of the energy, and eta is the displacement of a step. The energies before and
+after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its term
+of e, and then the terms are added. The terms are small, so e has a small rounding error.
 
 If the equations are not Hamilton's equations, the field f is expressed by the bivector
 (gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. Three further sums over all sites
@@ -32,7 +32,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
     """
     unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
     targets = {v.name for assign in program.assigns() for v in assign.targets}
-    # New variables must differ from all names of the program.
+    # The names of new variables must not occur in the program.
     builder = Builder({v.name for v in program.inputs} | unknowns | targets | {"t", "h"})
 
     def expanded(assigns: tuple[Assign, ...]) -> tuple[Assign, ...]:
@@ -48,7 +48,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Return the assignments that replace ``assign``. The last of them sets the targets of ``assign``."""
+    """Return the assignments that replace ``assign``. The last assignment sets the targets of ``assign``."""
 
     # An inner product needs two operations: one at each site, and one that adds the results of all sites.
     def total(name: str, x: Var, y: Var) -> Var:
@@ -59,7 +59,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # The excess of a site is the change of its energy minus the linear prediction <g, x> of this change.
+        # ``paired`` is a linear prediction of the change of the energy at a site. The excess is its error.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):
@@ -69,5 +69,5 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         operation, args = Wedge(), (gamma, f, *sums)
     else:
         return (assign,)
-    # The last assignment keeps the targets of ``assign``, so later statements can read them as before.
+    # The last assignment has the targets of ``assign``, so later statements need no change.
     return (*build.take(), replace(assign, operation=operation, args=args))
