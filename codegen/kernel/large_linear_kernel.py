@@ -49,8 +49,8 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
     The compiler passes do not depend on A, so they are verified on a small problem with a 3 x 3 matrix A.
 
-    MethodError is raised for methods with step control and for methods with implicit stages. It is also
-    raised if a step contains operations other than exponentials, sums and brackets of values of A.
+    A step may contain exponentials, linear combinations and brackets. MethodError is raised for methods with
+    other operations, with step control or with implicit stages.
     """
     if method.adaptive:
         expected = "a run with constant steps"
@@ -60,7 +60,7 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a linear problem without symmetries, on which the passes of a program are verified."""
+    """Return a small linear problem, on which the compiler passes are verified."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 
@@ -73,8 +73,8 @@ def _model(timed: bool) -> Problem:
 def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of a program on a large linear problem.
 
-    MethodError is raised for implicit stages. It is also raised if a step contains operations other than
-    exponentials, sums and brackets of values of A.
+    A step may contain exponentials, linear combinations and brackets. MethodError is raised for other
+    operations and for implicit stages.
     """
     assert isinstance(scene.matrices, LinearField)
     step = _Builder(program, scene, scene.matrices).step()
@@ -87,10 +87,10 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A value of the algebra: a linear combination of matrices h A(t_i) and commutators, times h^-``power``.
+    """A linear combination of matrices h A(t_i) and of commutators, divided by a power of h.
 
-    ``nodes`` maps the index i of a matrix to its coefficient. ``commutators`` maps the index of a commutator
-    to its coefficient.
+    ``power`` is the exponent of h. ``nodes`` maps the index i of a matrix to its coefficient. ``commutators``
+    maps the index of a commutator to its coefficient.
     """
 
     power: int
@@ -167,7 +167,7 @@ class _Builder:
                 what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
-            # The last exponential is found first, so each exponent is inserted before those already found.
+            # The loop follows the step backwards, so each exponent is inserted at the beginning of the list.
             result.insert(0, x)
         return result
 
@@ -179,7 +179,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # Values are combinations of the matrices h A(t_i), divided by h^``power``. So A(t) has power 1.
+            # The value A(t) is the matrix h A(t) divided by h, so its power is 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
@@ -222,8 +222,8 @@ class _Builder:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A term with the coefficient zero is removed, because it would cost a product with a
-                    # matrix. Besides, ``is_zero`` is true only if there are no terms.
+                    # A term with the coefficient zero would cost a product with a matrix, so it is removed.
+                    # Then ``is_zero`` recognizes a zero sum.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -231,9 +231,8 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, x is replaced by x - c y for a number c. The bracket does not
-        change: [x - c y, y] = [x, y]. If possible, c makes x - c y a linear combination of differences A(t_i)
-        - A(t_j). These differences are small, so the norm of the commutator has a smaller bound.
+        If x and y contain no commutators, :func:`_difference` may replace x by a combination of differences
+        of values of A. These differences are small, so the norm of the commutator has a smaller bound.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -247,7 +246,7 @@ class _Builder:
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
 
     def inverse(self, x: _Value, y: _Value, order: int) -> _Value:
-        """Return the series of dexp^{-1}_x y up to the term with ``order`` nested brackets."""
+        """Return the truncated series of dexp^{-1}_x y. Its last term has ``order`` nested brackets."""
         terms, power = [(Coefficient(Number.rational(1)), y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(x, power)
@@ -270,7 +269,7 @@ class _Builder:
         return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
 
     def matrix(self) -> TimeMatrix:
-        """Return A(t). Parameters that are not run-time arguments are replaced by their values."""
+        """Return A(t). Parameters that are fixed at compile time are replaced by their values."""
         space = self.domain.space
         values = {**self.scene.scalars(self.domain, space.sym(TIME))}
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
@@ -318,12 +317,13 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return two values whose commutator is [x, y]. If possible, the coefficients of the first value add up
-    to zero.
+    """Return x - c y and y. Their commutator is [x, y] for every number c.
+
+    With the chosen c, the coefficients of x - c y add up to zero. If this is impossible, c is 0.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x add up to zero, x needs no change. If the coefficients of y add up to zero, the
-    # sum of the coefficients of x - c y is the same for every c, so x is not changed either.
+    # If the coefficients of x add up to zero, c = 0 is the solution. If the coefficients of y add up to zero,
+    # c has no effect on the sum.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # The coefficients of x - ``ratio`` * y add up to zero.

@@ -1,16 +1,18 @@
 """Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
-On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
-(a, b) of its Lie algebra is the vector field u -> a lambda u + b. Here b is a linear combination of values of
-N. Its coefficients are functions of z = h lambda. This module executes a program symbolically, with functions
-of z in place of numerical coefficients (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
+On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. The pair
+(a, b) denotes the vector field u -> a lambda u + b, an element of the Lie algebra of this group. In a step, b
+is a linear combination of values of N. The coefficients of b are functions of z = h lambda. This module
+executes a program symbolically, with such functions as coefficients (:mod:`codegen.ir.mode_step`). Three
+formulas are sufficient:
 
-- exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
-- [(a, b), (c, d)] = (0, lambda (a d - c b));
-- dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
+- The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b, where phi_1(z) = (exp(z) - 1)/z.
+- The bracket [(a, b), (c, d)] is (0, lambda (a d - c b)).
+- Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
+  (c, beta d + (1 - beta) c b/a).
 
-The function phi_1 is phi_1(z) = (exp(z) - 1)/z. The third formula follows from an identity for ad =
-ad_{h (a, b)}. For every power series f the identity is f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
+Let ad be the bracket with x. The third formula follows from an identity for power series f: f(ad) is equal to
+f(0) + (f(a z) - f(0))/(a z) ad.
 """
 
 from __future__ import annotations
@@ -64,8 +66,9 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N. The dictionary maps the number of each source
-to its coefficient. A source is the old state or a value of N (:class:`codegen.ir.mode_step.Term`).
+"""A linear combination of the old state and of values of N. The dictionary contains the coefficients.
+
+The key of the old state is :data:`codegen.ir.mode_step.STATE`. The key of a value of N is its index.
 """
 
 ZERO = Number.rational(0)
@@ -86,7 +89,7 @@ class _Element:
 
 @dataclass(frozen=True)
 class _Map:
-    """The affine map u -> exp(a z) u + h b, where z = h lambda."""
+    """The affine map u -> exp(a z) u + h b, where z is h times the eigenvalue of L."""
 
     a: Number
     b: Sum
@@ -109,9 +112,9 @@ class ModeMethod:
 
 
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
-    """Compile ``method`` for ``scene``. MethodError is raised for implicit methods.
+    """Compile ``method`` for ``scene``. Each compiler pass is verified on a model problem with one mode.
 
-    The compiler passes are verified on a model problem with one mode.
+    MethodError is raised for implicit methods, and for methods with unsupported operations.
     """
     model = model_of(scene)
     problem, lowered = problem_for(model, method), lower(model, method)
@@ -144,7 +147,7 @@ def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
     for factor, terms in parts:
         for source, multiplier in terms.items():
             total[source] = total.get(source, Multiplier()) + factor * multiplier
-    # The sources are sorted, so equal sums have equal terms in emitted code. Zero coefficients are left out.
+    # The sources are sorted, so equal sums give equal code. Zero coefficients are left out.
     return {source: m for source, m in sorted(total.items()) if m.terms}
 
 
@@ -156,7 +159,7 @@ def _constant(value: Number) -> Multiplier:
 class _Execution:
     """Executes the program of a step symbolically on one Fourier mode.
 
-    Every coefficient is a formula in z = h lambda, so one execution covers all modes.
+    Every coefficient is a formula in z = h lambda. These formulas are the same for all modes.
     """
 
     scene: Problem
@@ -170,7 +173,7 @@ class _Execution:
     listed: list[Table] = field(default_factory=list)
 
     def step(self, program: Program) -> ModeStep:
-        """Execute an explicit program, and return its step as operations on Fourier modes."""
+        """Translate the program of an explicit method to a step on Fourier modes."""
         for var in program.inputs:
             if var.kind is Kind.REAL:
                 # Times are in units of h, and the step begins at time 0.
@@ -216,7 +219,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # A zero element may have any power of h. The power is 1, because an exponential expects it.
+                # Zero has no definite power of h. The power 1 is chosen.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -248,12 +251,12 @@ class _Execution:
 
     def _combination(self, assign: Assign) -> _Element:
         parts = [(c, self.elements[v]) for c, v in assign.terms]
-        # Zero elements are removed first, because their power of h is arbitrary.
+        # Zero elements have no definite power of h, so they are removed.
         parts = [(c, x) for c, x in parts if not x.is_zero]
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All terms have the same power of h, because a method contains h only in products with the field.
+        # All other terms have the same power of h.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -261,31 +264,29 @@ class _Execution:
         return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
 
     def _evaluated(self, point: Var, *time: Var) -> _Element:
-        """Record a new evaluation N_j of N at ``point``. Return the value of the field: the pair (1, N_j)."""
+        """Record an evaluation of N at ``point`` and ``time``. Return the value of the vector field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The pair (a, b) denotes the field u -> a lambda u + b. Here a is 1, and b is the value N_j.
+        # The field u -> lambda u + N_j is the pair (1, N_j), where N_j is the new value of N.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b. The class ``_Map`` supplies the
-        # factor h.
+        # The exponential maps u to exp(a z) u + h phi_1(a z) b. A ``_Map`` stores the last term without h.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
-        # The composition is g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b. The product of both
-        # exponentials is exp((g.a + k.a) z).
+        # The composition g(k(u)) is exp((g.a + k.a) z) u + h (exp(g.a z) k.b + g.b).
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
-        # The bracket of x = (a, b) and y = (c, d) is (0, lambda (a d - c b)), where lambda = z/h.
+        # For x = (a, b) and y = (c, d), the bracket is (0, lambda (a d - c b)). The factor lambda = z/h
+        # reduces the power of h by one.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
-        # The bracket contains the factor lambda = z/h, which reduces the power of h by one.
         return _Element(ZERO, b, x.power + y.power - 1)
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
@@ -307,11 +308,11 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # For x = h (0, b) and y = (c, d), the result is y - [x, y]/2 = (c, d + z c b/2).
+            # If x = h (0, b), only two terms of the series are nonzero: y - [x, y]/2.
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
-        # The division by a is possible here, because the method returns earlier if a = 0.
+        # The case x.a = 0 returned above, so the division by x.a is possible.
         rest = (_constant(ONE) + beta.scaled(Number.rational(-1))).scaled(y.a / x.a)
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
@@ -321,7 +322,7 @@ class _Execution:
         Each term contains the index of a table. This table contains the coefficient of the term for each
         mode. The coefficient 1 has no table.
         """
-        # Values of N have the factor h. The old state has no such factor.
+        # The coefficient of a value of N contains h. The coefficient of the old state does not.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

@@ -1,8 +1,8 @@
-"""Matrices of Newton's method for u = g(u). The matrix is 1 - g', either exactly or to first order in h.
+"""Matrices 1 - g'(u) of Newton's method for equations u = g(u).
 
-The first order suffices for short steps, because one Newton correction then reduces the error by a factor of
-O(h^2). The first-order matrix is cheap, because it contains only derivatives at h = 0. Inverses of small
-matrices are expanded by cofactors.
+A matrix is either exact or expanded to first order in h. The expansion is cheap, because it contains only
+derivatives at h = 0. Its error is O(h^2), so a Newton correction multiplies the error of u by O(h^2). This is
+sufficient for short steps. Small matrices are inverted by formulas with cofactors.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codegen.ir.jacobian import jacobian
 SMALL = 3
 """The largest number of rows of a matrix whose inverse is computed from cofactors.
 
-A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
-each. For a 4 x 4 matrix, Gaussian elimination takes fewer operations.
+For larger matrices, Gaussian elimination takes fewer operations. A 3 x 3 inverse has 9 cofactors of 3
+operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations each.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -35,11 +35,14 @@ AT_ZERO = {
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
-"""The values of functions at zero, or None for a function that is singular at zero."""
+"""The values of functions at zero. If a value is not rational or not finite, the entry is None."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return the rows of Newton's matrix 1 - g'(u). The expressions ``images`` are the components of g(u)."""
+    """Return the rows of Newton's matrix 1 - g'(u).
+
+    ``unknowns`` are the names of the components of u. The expressions ``images`` are the components of g(u).
+    """
     space = images[0].space
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
@@ -47,10 +50,10 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return the rows of Newton's matrix 1 - g'(u) to first order in h. The expressions ``images`` are the
-    components of g(u).
+    """Return the rows of Newton's matrix 1 - g'(u) to first order in h. The arguments are those of
+    :func:`matrix`.
 
-    ZeroDivisionError is raised if g has no value at h = 0.
+    ZeroDivisionError is raised if g or its derivative with respect to h cannot be evaluated at h = 0.
     """
     return matrix(leading_terms(images), unknowns)
 
@@ -58,27 +61,26 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """Return the expansion of each image in powers of h, up to first order.
 
-    ZeroDivisionError is raised if an image has no value at h = 0.
+    ZeroDivisionError is raised if an image or its derivative cannot be evaluated at h = 0.
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives of the images with respect to h. Then h is set to zero in the images and
-    # in the slopes.
+    # ``slopes`` are the derivatives of the images with respect to h.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # Images and slopes are evaluated together, because they share subexpressions.
+    # Images and slopes share subexpressions, so h is set to zero in all of them together.
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
 
 
 class _AtZero(ExprDomain):
-    """An arithmetic of expressions, in which a function call with the argument zero becomes a constant."""
+    """An expression domain that replaces function values f(0) by constants."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node. If the argument is zero and :data:`AT_ZERO` contains the function, return a
         constant.
         """
-        # :data:`AT_ZERO` contains values of Stumpff functions, because their closed forms are 0/0 at zero.
+        # The closed forms of Stumpff functions are 0/0 at zero, so their values are taken from a table.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -89,7 +91,7 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the expressions ``roots`` with 0 in place of h."""
-    # Evaluation creates all nodes again, so that constant expressions are simplified.
+    # With h = 0 some subexpressions are constant. The evaluation simplifies them.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # New nodes must be created in the same order in every run of the compiler.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
@@ -101,8 +103,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Unlike elimination with pivoting, cofactors need no branches that depend on data. An inaccurate inverse
-    # slows the iteration down, but does not change the solution.
+    # Cofactors need no pivoting, so the emitted code has no branches. Rounding errors of the inverse slow the
+    # iteration down, but do not change its solution.
     determinant = space.zero
     # The determinant is expanded along the first row, whose cofactors are known.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
@@ -117,8 +119,8 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # For n = 3, cyclic row and column indices give each cofactor the right sign. For n = 2 the sign is set
-    # explicitly, and only a and c are used, because b = a and d = c.
+    # The other rows are a and b, and the other columns are c and d. For n = 3, their cyclic order gives the
+    # right sign. For n = 2, one row and one column are left, and the sign is set explicitly.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

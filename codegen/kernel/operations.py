@@ -1,6 +1,6 @@
 """Counts the operations and function calls of a step.
 
-Operations outside loops are counted separately from the operations of one sweep of each loop.
+The operations outside loops are counted separately. For each loop, the operations of one sweep are counted.
 """
 
 from __future__ import annotations
@@ -22,28 +22,26 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""The key under which the operations outside loops are counted. Every step executes these operations."""
+"""The key for the operations outside loops. Every step executes these operations."""
 
 START = "start"
-"""The key under which the operations of starting values are counted. Only the first step of a run executes
-these operations.
-"""
+"""The key for the initial guess of a run. Only the first step of a run computes this guess."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
-    """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
+    """Count the operations of a step by name: ``add`` (also for subtractions), ``mul``, ``div``, and calls.
 
     The result has separate counts for the following keys:
 
     - ``step``: the operations outside loops.
     - ``start``: the additional operations of the first step of a run.
-    - The label of a block of implicit equations: the operations of one sweep of the loop that solves them.
+    - The label of a block of implicit equations: the operations of one sweep of its loop.
     - The key that :func:`matrix_of` returns: the operations that compute the entries of a Newton matrix.
 
-    The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
-    counted.
+    The inversion of a Newton matrix, changes of sign, comparisons, extrapolation and the stopping rule are
+    not counted.
     """
-    # The operations of an outlined function are counted once here, and added for each call.
+    # ``inside`` contains the operations of one call of each outlined function.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -53,7 +51,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     for statement in arrangement.statements:
         match statement:
             case Iteration():
-                # Starting values are computed once, before the loop, so they belong to the step.
+                # The starting values of a loop are computed before the loop, once in each step.
                 total[STEP] = _plus(total[STEP], count([], statement.starts))
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
@@ -68,7 +66,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step executes the operations outside loops once for each substep.
+        # A step may consist of several substeps. Each substep executes the operations outside loops.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -77,7 +75,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Count the operations of a kernel by name, as :func:`operations` does.
 
-    Some kernels have no outputs. For these kernels the following operations are counted:
+    If the kernel has no outputs, the counted operations depend on its type:
+
     - For a Taylor polynomial, the computation of its coefficients and its evaluation.
     - For a step with large matrices, the operations of the whole step. The number of series terms in an
       exponential depends on the matrix, so a typical number is assumed.
@@ -94,14 +93,14 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     if kernel.outputs or expansion is None:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]
-    # Horner's rule takes an addition and a product for each coefficient.
+    # Horner's rule takes ``degree`` additions and products for each component of the state.
     number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
-        # The first coefficient is counted above. Each further coefficient is one iteration of the loop.
+        # The coefficient of order 1 is counted above. The kernel ``following`` computes one further order.
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
-        # Coefficient n of a product contains the inner sum of a_j b_{n-j} over 0 < j < n, with n - 1 terms.
+        # In coefficient n of a product of two series, an inner sum has n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
     # ``enter`` converts the state to the coordinates of the polynomial, and ``leave`` converts the result
@@ -114,8 +113,8 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
     """Count the operations for one site by name.
 
-    The result has separate counts for the operations outside loops, for one iteration of each block of
-    equations, and for each Newton matrix.
+    The result has the same keys as in :func:`operations`: ``step``, the label of each block of equations, and
+    the key of each Newton matrix.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
@@ -130,7 +129,7 @@ def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
 
 
 def matrix_of(label: str) -> str:
-    """Return the key under which the operations are counted that compute the Newton matrix of a block."""
+    """Return the key for the operations that compute the Newton matrix of the block ``label``."""
     return f"matrix of {label}"
 
 
@@ -155,15 +154,15 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Format the costs of a step, of a sweep of each block, and of the beginning and the end of a run."""
+    """Return lines of text with the operation counts of a step, and of the beginning and end of a run."""
     lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The new momentum is mu + (after - before), which takes two additions for each component.
+        # At the end of a run, mu is changed by the difference of two results of ``outward``. This takes two
+        # additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At the beginning of a run, mu is converted to the body frame and back, which gives ``before``. At
-        # the end, the new momentum is converted back, which gives ``after``.
+        # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
@@ -199,7 +198,7 @@ def _counted(
 
 
 def _operations_in_text(root: Expr) -> dict[str, int]:
-    """Count the operations in the printed text of one expression. The text repeats shared subexpressions."""
+    """Count the operations in the text of one expression. Repeated subexpressions are counted again."""
     counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
@@ -214,7 +213,7 @@ def _operations_in_text(root: Expr) -> dict[str, int]:
                 own = {"add": 1}
             case op:
                 own = {op: 1}
-        # The text repeats an argument for each node that reads it, so its operations are counted each time.
+        # The text of a node contains the texts of all its arguments.
         for arg in node.args:
             own = _plus(own, counts[arg.id])
         counts[node.id] = own

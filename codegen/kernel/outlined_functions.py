@@ -1,9 +1,9 @@
 """Outlined functions: a group of operations that a step repeats becomes one function.
 
-Such a group is called a tree, because each operation except the last one gives its result to one other
-operation of the group. The arguments of a function are the inputs of the tree and the coefficients of its
-sums. If every call passes the same constant for an argument, the function contains this constant instead. A
-function computes only the results that the step reads.
+The operations of a group form a tree: each result except the last is an operand of one other operation of the
+tree. The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. If
+every call passes the same constant for an argument, the function contains this constant instead. A function
+computes only the results that the step reads.
 """
 
 from __future__ import annotations
@@ -36,21 +36,19 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # Constants are inserted before the operations of the function are executed, so that constants are
-        # combined. ``fixed`` has an entry for each input of the function, so the rest of ``fixed`` may
-        # be longer than ``words``.
+        # Constants are inserted here, so that the operations of the function can combine them. The last
+        # entries of ``fixed`` may belong to later inputs.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Return the text of the coefficient ``c`` of a term, including powers of h.
+        """Return the text of the coefficient ``c`` of a term: a name or a number, and powers of h.
 
-        The input ``x`` of the outlined function is the value of ``c`` without the powers of h. If ``x`` is a
-        symbol, the text contains the name of this symbol. If ``x`` is a constant, the text contains the
-        number itself.
+        ``x`` is the value of ``c`` without the powers of h. If ``x`` is a symbol, the text contains its name.
+        Otherwise the text contains the number.
         """
-        # The header of emitted code omits the name of the function from the names of arguments.
+        # A symbol is named ``FUNCTION.ARGUMENT``. The text contains the name of the argument.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -63,16 +61,16 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the function that computes a tree, and two lists that describe its arguments.
+    """Return the function for a tree, the positions of the inputs that it reads, and its parameters.
 
-    The first list contains the positions of the inputs that the function needs. The second list contains the
-    run-time parameters of the scene that the function reads. ``read`` are the indices of the results that the
-    function computes. ``fixed`` has one entry for each input of the tree: the constant that every call
-    passes, or None if the calls pass different values.
+    The parameters are run-time parameters of the scene. The function returns the results with the indices
+    ``read``. ``fixed`` has one entry for each input. If every call passes the same constant, the entry is
+    this constant. Otherwise it is None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Expressions of the step may be simplified for one call, so the tree is executed again with symbols.
+    # The expressions of one call may be simplified, and then they do not fit the other calls. Therefore the
+    # tree is executed with symbols as inputs.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -88,7 +86,7 @@ def function(
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
         assign = trees.executions[i].assign
-        # Negative positions -1, -2, ... denote the results 0, 1, ... of earlier assignments of the tree.
+        # A negative position -1, -2, ... denotes the entry 0, 1, ... of ``results``.
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
@@ -98,7 +96,7 @@ def function(
             # index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
-            # A coefficient c h^p is passed as the number c, and the function multiplies it by h^p.
+            # The argument for a coefficient c h^p is the number c. The function computes the product c h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -117,13 +115,13 @@ def function(
     # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
-    # The remaining symbols are parameters of the scene, which the formulas of operations contain.
+    # The formulas of operations may contain parameters of the scene. All other symbols are inputs.
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
     return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Name the inputs of a function: a letter for the kind, and a number among the inputs of this kind.
+    """Return a name for each input: the letter of its kind and a number. Each kind is numbered separately.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -137,14 +135,14 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # Each result of a call is an expression of its own. All results of one call have equal arguments,
-            # so they count as one call.
+            # A call has one expression for each result. These expressions have equal arguments, so they are
+            # counted once.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
 
 class WithFunctions:
-    """An arithmetic (number domain) that can also evaluate calls of a kernel's outlined functions."""
+    """A number domain that also evaluates calls of outlined functions."""
 
     def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}
