@@ -2,8 +2,8 @@
 
 Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
 (:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and stores it for
-the next sweep. Coefficient n includes the factor h^n. If a neighbour lies outside an open boundary, its state
-is a given function of the time and of the site's state.
+the next sweep. Coefficient n includes the factor h^n. Outside an open boundary, the state of a neighbour is a
+given function of the time and of the state of the site.
 
 Many expressions occur in the coefficients of several degrees. A sweep stores such an expression if computing
 it again takes more operations than :data:`SHORT`.
@@ -56,9 +56,9 @@ class _Stored:
 
 
 class TaylorSweeps:
-    """The sweeps of a step of Taylor's method of the given degree.
+    """Builds the sweeps of one step of Taylor's method. A sweep is a loop over all sites.
 
-    ``problem`` is the equation of one site whose neighbours do not move. ``problem.evolution`` contains the
+    ``problem`` is the equation of one site with fixed neighbours. ``problem.evolution`` contains the
     derivatives of the coordinates.
     """
 
@@ -75,8 +75,7 @@ class TaylorSweeps:
         # The coordinates of the site come first. Then the coordinates of each neighbour follow.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
-        # For each offset, ``outside`` contains the series of the coordinates of a neighbour outside an open
-        # boundary.
+        # For neighbour i outside an open boundary, ``outside[i][k]`` is the Taylor series of coordinate k.
         self.outside: list[list[Series]] = [
             list(map(self.recurrence.series, column)) for column in sites.outside
         ]
@@ -115,25 +114,24 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of one Taylor coefficient of the state.
+        """Record the loads of one Taylor coefficient of a site and of its neighbours.
 
-        A neighbour may lie outside the lattice. For this case, formulas for its coefficient are recorded.
+        For neighbours outside the lattice, formulas for the coefficient are recorded, too.
         """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
-                    # A term that is None is identically zero, so the formula is the number zero.
+                    # None represents a term that is identically zero.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return ``terms``. If neighbours outside the lattice require it, the number zero replaces None.
+        """Return the coefficients ``terms``, with None replaced by the number zero if sweeps must load zeros.
 
-        None represents a coefficient that is zero at all sites. No sweep loads such a coefficient. If the
-        coefficient may differ from zero at a neighbour outside the lattice, sweeps must load it. Then the
-        number zero replaces None.
+        A coefficient that is zero at all sites is represented by None, and no sweep loads it. The coefficient
+        may still differ from zero at neighbours outside the lattice. In this case, sweeps must load it.
         """
         if degree == self.degree:
             return terms
@@ -142,12 +140,10 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if coordinate k of a neighbour outside the lattice is constant, or equal to coordinate
-        k of the site.
+        """Return True if a Taylor coefficient that is zero at all sites is also zero outside the lattice.
 
-        ``ghost`` is the formula for this coordinate of the neighbour. Suppose that the result is True, and
-        that a Taylor coefficient of coordinate k is zero at all sites. Then the coefficient is also zero
-        outside the lattice.
+        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. The result is True if
+        the formula is a constant or coordinate k of the site.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -157,7 +153,7 @@ class TaylorSweeps:
         every: list[Row] = []
         own: list[str] = []
         for s, x in zip(self.symbols, terms, strict=True):
-            # A coefficient that is zero needs no row and no symbol. An empty name marks this case.
+            # A coefficient that is zero needs no row and no symbol, so its name is empty.
             own.append("" if x is None else unique_name(f"{s}_d{degree}", self.taken))
             every.append(Row(WORK, self.rows))
             if x is not None:
@@ -169,14 +165,14 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
-        # Symbols replace the expressions of the coefficient, because the next sweep reads stored numbers.
+        # Later sweeps read this coefficient from memory, so symbols replace its expressions.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)
         return rows
 
     def _end(self) -> list[Expr]:
-        """Execute the program on symbols, and return the new state."""
+        """Execute the program symbolically, and return the expressions of the new state."""
         env: dict[Var, Value] = {}
         for var in self.program.inputs:
             names = self.symbols if var.kind is not Kind.REAL else (TIME,)
@@ -220,7 +216,7 @@ class TaylorSweeps:
         for n, roots in enumerate(ends):
 
             def reused(node: Expr, n: int = n) -> bool:
-                # Only expressions that an earlier sweep has computed can be read from memory.
+                # A sweep can read an expression from memory only if an earlier sweep has computed it.
                 again = first[node.id] < n and bool(node.args) and node.id in local
                 return again and (node.id in stored.writer or self._work(node, work) > SHORT)
 
@@ -240,14 +236,12 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression. If the number exceeds :data:`SHORT`,
-        return any number above :data:`SHORT`.
-        """
+        """Return the number of operations in an expression. The count stops above :data:`SHORT`."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
-                # The exact number does not matter above the limit, so the count ends early.
+                # Above the limit, the exact number does not matter.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -256,16 +250,14 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. The last outputs of each sweep are the expressions in ``stored`` that it stores
-        for later sweeps.
-        """
+        """Return the sweeps. The last outputs of a sweep are the expressions that later sweeps read."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # A stored expression is read only at its own site, so the last sweep that reads it may overwrite
-            # it.
+            # A site reads only its own stored values. Therefore the last sweep that reads a row may overwrite
+            # the row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps. The values that this sweep stores are
@@ -284,14 +276,12 @@ class TaylorSweeps:
         return listed
 
     def _replaced(self, roots: Sequence[Expr], known: dict[int, Expr]) -> list[Expr]:
-        """Return the expressions ``roots`` with symbols in place of expressions that earlier sweeps have
-        stored.
-        """
+        """Return ``roots`` with stored expressions replaced by symbols. The keys of ``known`` are ids."""
         changed = dict(known)
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # The node is built without simplification, so that its rounding error does not change.
+                # Simplification could change rounding errors, so the node is not simplified.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 

@@ -24,16 +24,16 @@ UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
 The number is estimated as the number of products times P^2, where P is the degree of the polynomial. The
-instruction cache of most processors has 32 KB, enough for about 4000 operations. On heavy_top, with 18
-products, a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products, the
-times are 1.5 us and 0.82 us.
+instruction cache of most processors has 32 KB, enough for about 4000 operations. With 18 products
+(heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products,
+it takes 1.5 us with unrolled code and 0.82 us with a loop.
 """
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
     """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used.
 
-    Code is unrolled if it is short enough, or if the momentum is in the body frame.
+    Short code is unrolled. If the momentum is in the body frame, code of every length is unrolled.
     """
     if problem.body_group is not None:
         return None
@@ -49,9 +49,9 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel with an expansion, which computes the Taylor coefficients of the solution.
+    """Add kernels that compute the Taylor coefficients of the solution to ``kernel``, and return the result.
 
-    The emitted code then contains an additional function for a run with step-size control.
+    The emitted code of this kernel has an additional function for runs with step-size control.
     """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
@@ -62,7 +62,7 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
 def _loop(inner: Evolution) -> OrderLoop:
     domain = SharedArguments()
     state = tuple(map(domain.space.sym, inner.inner.symbols))
-    # The step size 1 gives coefficients of powers of t, without factors h^n.
+    # The step size is set to 1, so the coefficients contain no factors h^n.
     terms = inner.recurrence(domain, state, domain.space.sym(TIME), domain.space.one)
     return order_loop(terms, domain.space)
 
@@ -79,10 +79,10 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates in which the Taylor polynomial is computed"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
-    # The kernels ``first`` and ``following`` share the function ``name``, so their new names differ.
+    # ``name`` never returns a name twice, so the kernels ``first`` and ``following`` have different names.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # For each product of two series, ``left`` and ``right`` contain coefficient n of its factors.
+    # ``left`` and ``right`` contain coefficient n of the two factors of each product of series.
     # ``following`` contains coefficient n + 1 of each coordinate.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
@@ -92,11 +92,9 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # Step-size control needs the coefficients before h is known. Therefore they are coefficients of powers of
-    # t, without factors h^n.
+    # Step-size control computes h from the coefficients. Therefore the coefficients contain no factors h^n.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
-    # None means that a coefficient is identically zero. The outputs are the coefficients of degree 1 of
-    # all coordinates, then the coefficients of degree 2, and so on.
+    # A coefficient that is identically zero is None in ``rows``. The outputs are sorted by degree.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
 

@@ -1,8 +1,8 @@
-"""Translates a step program to a kernel: executes the program symbolically, then orders scalar assignments.
+"""Translates a step program to a kernel, which consists of scalar assignments and loops.
 
-Every value becomes a tuple of expressions. Equal expressions are a single node (hash-consing). A block of
-implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
-(:mod:`codegen.kernel.assignments`).
+The program is executed symbolically, so every value becomes a tuple of expressions. Equal expressions share
+one node. A block of implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become
+assignments (:mod:`codegen.kernel.assignments`).
 """
 
 from __future__ import annotations
@@ -51,9 +51,10 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path, which is the longest chain of dependent operations.
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED multiplies step sizes and constants first.
+- COMBINED forms the products of factors that are constant in a run, such as the step size.
 - ORDERED sorts the assignments by the estimated time at which a processor has computed their values.
-- SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
+- SHORTENED includes COMBINED and ORDERED, and rewrites the longest chains
+  (:mod:`codegen.kernel.critical_path`).
 """
 
 
@@ -74,15 +75,16 @@ def to_kernel(
     - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
     - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
       without implicit equations.
-    - If only the program uses the body frame, a run transforms the momentum once at its beginning and once at
-      its end. If ``whole`` is true, each step transforms the momentum instead
-      (:mod:`codegen.kernel.carried_momentum`).
+    - ``whole`` is used if the program stores the momentum in the body frame, but the emitted code does not.
+      If ``whole`` is true, each step transforms the momentum. Otherwise a run transforms the momentum at the
+      beginning and at the end (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
-    method does not exist. ZeroDivisionError is raised if this matrix does not exist to first order in h.
+    method does not exist. ZeroDivisionError is raised if this matrix must be expanded in h, but the equations
+    have no value at h = 0.
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -107,18 +109,18 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # This arithmetic represents equal expressions by one node.
+        # The domain represents equal expressions by one node.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Names chosen by users are reserved first.
+        # Generated names must differ from these names.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # With variations, the kernel contains the derivative of a step in the frame of the emitted code.
-        # Therefore each step, and not the run, converts the momentum.
+        # With variations, the kernel computes the Jacobian in the coordinates of the emitted code. Therefore
+        # each step must convert the momentum.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
@@ -133,16 +135,16 @@ class _Translation:
     def remember(self, var: Var) -> None:
         """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # If an earlier variable has named the expression, this name is kept.
+            # An expression that already has a name keeps this name.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Execute an assignment on expressions, and record it for outlining."""
+        """Execute an assignment symbolically, and record the assignment for outlining."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
-            # ``nested`` is the value of a sum of functions of ad_x in nested form, or None if nesting saves
-            # nothing.
+            # ``nested`` is the value in nested form (:mod:`codegen.passes.series_sums`), or None if nesting
+            # saves nothing.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -154,12 +156,12 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` treats the arguments as symbols. If the arguments were expanded, other expressions
-            # could no longer share their terms.
+            # ``gathered`` does not expand the arguments, so the results can share the arguments with other
+            # expressions.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An operation with a time argument may sample the run-time inputs. It cannot be outlined, because
-        # the arguments of an outlined function are numbers.
+        # If an operation has a time argument, its results may also depend on the run-time inputs at this
+        # time. Such an operation is not outlined, because an outlined function reads only its arguments.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is not in the list yet, so its index is the length of the list.
         place = len(self.blocks) if self.inside else -1
@@ -175,7 +177,7 @@ class _Translation:
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
-            # The blocks of the state are consecutive in the list of coordinates.
+            # ``given`` contains the coordinates of this block, followed by those of the next blocks.
             starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
         for var in self.program.inputs:
             self.env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
@@ -190,11 +192,11 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # With variations, :func:`_varied` differentiates the equations u = g(u), so the block keeps its
-        # images g(u). Otherwise residuals may replace the images.
+        # If ``variations`` is given, :func:`_varied` needs the images g(u) of the equations u = g(u).
+        # Otherwise the residuals of the equations may replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # A block with residuals already contains a matrix of Newton's method, to first order in h.
+        # :func:`compared` has added Newton's matrix to a block with residuals.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
@@ -205,8 +207,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # While a block is executed, ``run`` uses the length of ``blocks`` as the index of the block.
-        # Therefore the block is added to the list only afterwards.
+        # ``run`` uses the length of ``blocks`` as the index of the current block. Therefore a block is
+        # appended after its execution.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -227,15 +229,15 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method. The caller executes all statements
-        of the program first.
+        """Return the new state, and the new state of the embedded method.
 
-        The second state is () if the program computes no embedded solution.
+        All statements of the program must be executed before this call. If the program computes no embedded
+        solution, the second state is ().
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # The error estimate is the new state minus the embedded solution, so both are transformed to the same
-        # frame.
+        # The error estimate is the new state minus the embedded solution. Therefore both states must be in
+        # the same frame.
         for embedded in (False, True):
             # Without an embedded solution, no output has the name EMBEDDED. Then ``values`` is empty.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
@@ -256,8 +258,8 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of a block contain the solution of this block. Therefore they are
-        # solved after the block.
+        # The equations for the variations of a block contain the solution of this block. Therefore these
+        # equations follow the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -280,8 +282,8 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Outputs and error estimates are ordered together, so that they can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # LEAD is the duration of the flow that is joined with the first flow of the next step. ELAPSED is the
-        # duration of all steps of a run.
+        # LEAD is the duration of the last flow of a step. ELAPSED is the duration of a single step or of a
+        # whole run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -297,40 +299,39 @@ class _Translation:
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body, the outputs and the outlined functions of the kernel.
 
-        Repeated computations become functions if the code is then much shorter.
+        Repeated computations become functions if this makes the code much shorter.
         """
-        # Outlining may replace ``schedule`` by a new schedule below. The names of the old schedule are then
-        # free again, so the names in use before it are saved.
+        # Outlining replaces ``schedule``, so it may use the names of ``schedule`` again. It must not use the
+        # names in ``before``.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size. Only long code is outlined.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining searches the expressions for the results of repeated operations. COMBINED and SHORTENED
-        # have rewritten the expressions, so outlining would not find these results.
+        # Outlining looks for the results of operations in the expressions. COMBINED and SHORTENED have
+        # rewritten the expressions, so outlining would not find these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # The assignments are sorted after the last change of ``body``, because their order depends on all of
-        # them.
+        # Outlining may change the assignments, so they are sorted after outlining.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
 
 
 def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
-    """Return the number of assignments of a body, including loops and Newton's matrices."""
+    """Return the number of assignments. Assignments in loops, matrices and functions count, too."""
     total = 0
     for statement in body:
         if isinstance(statement, Let):
             total += 1
             continue
         total += len(statement.body)
-        # For Newton's method, the code of the loop includes the assignments of the matrix.
+        # A loop of Newton's method also computes Newton's matrix.
         if isinstance(statement, Loop) and statement.newton is not None:
             total += len(statement.newton.body)
     return total
@@ -345,13 +346,13 @@ def _outlined(
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
     """Return a schedule that calls outlined functions, and the list of these functions.
 
-    The schedule is None if nothing repeats.
+    The schedule is None if no computation is repeated.
     """
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # A value in ``kept`` is removed if no expression in ``flat`` reads it. Otherwise a function that only
-    # computes this value would count as used.
+    # Values in ``kept`` are removed if no expression in ``flat`` reads them. Therefore outlining creates no
+    # functions for unused values.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # The expressions of all blocks are in one list. Therefore outlining also finds computations that are
@@ -382,7 +383,7 @@ def _outlined(
     schedule.run()
     functions = []
     for function in outline.outlined:
-        # Each function has a schedule of its own, without blocks of equations. Its inputs are symbols.
+        # An outlined function contains no implicit equations, so its schedule has no blocks.
         own = Assignments((), function.outputs, {}, name)
         lets = own.run()
         functions.append(
@@ -396,8 +397,8 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
     The symbols of these variations are added to ``seeds``.
     """
-    # The derivative of u = g(u) is an equation for the variation du. It also contains the variations of the
-    # old state and of the unknowns of earlier blocks.
+    # The derivative of u = g(u) is an equation for the variation du of u. The variations of the old state and
+    # of the unknowns of earlier blocks are known when this equation is solved.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the convergence does not depend on the starting values. The iteration

@@ -21,10 +21,10 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a state. Each part is a pair (group, symbols), where the symbols denote the coordinates of
-    the part.
+    """Describes the variation of each part of a state.
 
-    If the group is None, each coordinate is varied independently.
+    Each part is a pair (group, symbols). ``symbols`` are the coordinates of the part. If the group is None,
+    each coordinate is varied independently. Otherwise an element of the Lie algebra varies the part.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
@@ -42,7 +42,7 @@ class Variations:
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
-                # The right trivialisation identifies T*G with G x g*.
+                # In the right trivialisation, an element of T*G is a pair of a group element and a momentum.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -76,14 +76,16 @@ class Variations:
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the variation of the new state ``state``. ``rates`` are the derivatives of the coordinates
-        of this state.
+        """Return the variation of the new state.
+
+        ``state`` contains the coordinates of the new state. ``rates`` contains their derivatives in the
+        direction of the variation of the old state.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # ``rate`` returns the element xi of the Lie algebra with v = xi.g.
+            # For the tangent vector v at g, ``rate`` returns the element xi of the algebra with v = xi.g.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

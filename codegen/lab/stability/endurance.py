@@ -15,9 +15,10 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit on the CPU time of a run forward in seconds. It also applies to each run back.
+"""The approximate limit, in seconds, on the CPU time of a run in one direction.
 
-If MANY or BACK steps would take longer, fewer steps are made.
+A run forward has MANY steps. A run forward and back has BACK steps in each direction. If these steps would
+take longer than the limit, their number is reduced.
 """
 
 TRIAL = 1000
@@ -27,13 +28,17 @@ TRIAL = 1000
 class Endurance:
     """The result of a long run. ``steps`` is the number of steps.
 
-    The run is either a run forward, or a run forward followed by a run back to the initial time. For a run
-    forward, ``defect`` is the largest absolute residual of the equations of the manifold at the final state,
-    or None if the manifold is a vector space. For a run forward and back, ``returned`` is the distance of the
-    final state from the initial state. ``failure`` is the status message if a step failed.
+    The run is either a run forward, or a run forward followed by a run back to the initial time.
+
+    - ``defect`` is the error of a run forward: the largest absolute residual of the equations of the manifold
+      at the final state. It is infinite if the final state is not finite. Otherwise it is None if the
+      manifold is a vector space.
+    - ``returned`` is the error of a run forward and back: the distance of the final state from the initial
+      state.
+    - ``failure`` is the status message if a step failed.
 
     A run that stopped with a status message passes the test, because the failure was reported. A complete run
-    forward passes if its final state is finite and ``defect`` is as small as rounding errors permit. A
+    forward passes if its final state is finite and ``defect`` is at most the size of rounding errors. A
     complete run forward and back passes if ``returned`` is finite. A large value of ``returned`` is accepted,
     because only symmetric methods return to the initial state.
     """
@@ -65,9 +70,9 @@ class Endurance:
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
     """Make a run forward, and a run forward and back.
 
-    The step size is a hundredth of the time span. The runs do not stop at the end of the time span. A trial
-    run of :data:`TRIAL` steps is made first. If one of its steps fails, return only one result with the
-    status message.
+    The step size is a hundredth of the time span. The runs may continue beyond the end of the time span.
+    Before these runs, a trial run of :data:`TRIAL` steps is made. If the trial run fails, it gives the only
+    result.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
