@@ -9,20 +9,20 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for equations y' = f(y).y, where f(y) is in the Lie algebra, and the dot is its action on y.
+    """A family for equations y' = f(y).y with f(y) in the Lie algebra. The dot is the action on y.
 
-    A Hamiltonian scene is read as such an equation on the group T*G.
+    Hamilton's equations are equations of this form on the group T*G.
     """
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene as an equation y' = f(y).y, where f(y) is in the Lie algebra and acts on y.
 
-        If a Hamiltonian is a sum of parts, its field is the sum of the fields of the parts. The field is
-        written as this sum if the sum needs fewer operations.
+        The field of a sum of Hamiltonians is the sum of their fields. If this sum needs fewer operations than
+        the field of the whole Hamiltonian, the equation contains the sum.
         """
         # The derived scene is stored, because several methods may be used on the same scene.
         if "field" not in scene.derived:
-            # ``with_field_by_parts`` reads the parts of a Hamiltonian, which are formulas in q and mu. It is
-            # called before ``as_field``, because ``as_field`` joins q and mu to one point y.
+            # ``with_field_by_parts`` needs formulas in q and mu. It is called first, because ``as_field``
+            # replaces q and mu by one point y.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, one summand that does not depend on time is chosen. The flow of this summand also advances the time.
-During all other flows the time is constant.
+time, the flow of one summand also advances the time. This summand must not depend on time. During all other
+flows the time is constant.
 """
 
 from __future__ import annotations
@@ -31,8 +31,10 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""The sequence of flows of a step. The first entry is the flow that acts first. Each entry is a pair
-(summand, x): the flow of this summand of the Hamiltonian has the duration x h.
+"""The flows of a step, in the order in which they act.
+
+Each entry is a pair (summand, x). It denotes the flow of the summand with the duration x h, where h is the
+step size.
 """
 
 
@@ -57,12 +59,12 @@ class Parts:
         """The summands in the order in which Phi* applies their flows. Phi applies them in reverse order.
 
         A composition applies Phi* and Phi alternately, and begins with Phi*. A kick is a flow that changes
-        only the momentum. If the scene is not a lattice, kicks come first. Then the last kick of a step
-        and the first kick of the next step can be joined into one flow.
+        only the momentum. If the scene is not a lattice, kicks come first. A step then begins and ends with a
+        kick, and the kicks of two neighbouring steps can be joined into one flow.
 
-        On a lattice, flows of different steps are not joined, so kicks come last. Then the kick at the
-        end of Phi* and the kick at the beginning of the following Phi are joined into one flow. Joining kicks
-        saves time, because a kick on a lattice reads all neighbours of a site.
+        On a lattice, flows of different steps are not joined, so kicks come last. Phi* then ends with a
+        kick, and Phi begins with a kick. These two kicks are joined into one flow. Joining kicks saves time,
+        because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -115,7 +117,7 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene with the attribute ``flows``, which contains the exact flows of a step by name."""
+        """Return a copy of the scene. Its attribute ``flows`` maps names to the exact flows of a step."""
         word = self.read(scene, method).word
         # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
@@ -129,7 +131,7 @@ class FlowLowering(Lowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the :class:`Family` whose order conditions apply to the method on a scene.
 
-        If ``scene`` is None, the result is the family with the label of the method.
+        If ``scene`` is None, return the family with the label of the method, for example ``splitting``.
         """
         from orderconds import families
 
@@ -150,7 +152,7 @@ class FlowLowering(Lowering):
         :class:`codegen.errors.MethodError` is raised in three cases:
 
         - A part has no exact flow.
-        - The number of parts in the scene differs from the number that the tableau requires.
+        - The format of the tableau, or its number of parts, does not fit the scene.
         - All parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
@@ -172,8 +174,8 @@ class FlowLowering(Lowering):
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances with the flow of the carrier. The operation that advances the time may come
-            # after the flow, because the flow does not depend on t.
+            # The flow of the carrier also advances the time. This flow does not depend on t, so the time may
+            # be advanced after it.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -186,7 +188,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
     """
     parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
-        # If ``summands`` is empty, the compiler could not write the part as a sum of terms with exact flows.
+        # If the compiler cannot split a part into summands with exact flows, ``summands`` is empty.
         if not part.summands:
             raise MethodError(
                 f"the part {part.name} has no exact flow: {part.reason}",
@@ -203,7 +205,7 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
     The composition applies a method Phi and its adjoint Phi* alternately. Phi is the product of the flows of
     all summands.
     """
-    # In each pair (beta_i, alpha_i), the flows of Phi*_{beta_i} act before the flows of Phi_{alpha_i}.
+    # Phi* with the duration beta_i h acts before Phi with the duration alpha_i h.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(parts.arranged, both), "composition"
 
@@ -233,15 +235,15 @@ def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return the flows of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... for the pairs (beta_i, alpha_i) in
-    ``both``.
+    """Return the flows of a composition of a method Phi and its adjoint Phi*.
 
-    In Phi* the flows of ``summands`` act in the given order, and in Phi in the reverse order.
+    For each pair (beta, alpha) in ``both``, Phi* with the duration beta h acts before Phi with the duration
+    alpha h. Phi* applies the flows of ``summands`` in the given order. Phi applies them in reverse order.
     """
     word: Word = []
     for beta, alpha in both:
-        # The adjoint Phi*_h = (Phi_{-h})^{-1} has the flows of Phi in the opposite order. Neighbouring flows
-        # of Phi and Phi* belong to the same summand, and _joined adds their durations.
+        # The last flow of Phi* and the first flow of Phi belong to the same summand. The function _joined
+        # adds their durations.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -255,13 +257,12 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
     """
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is dropped. Its neighbours may then be joined.
+        # A flow of duration zero is dropped. The flows before and after it may then be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # If the two durations add up to zero, both flows are dropped. The flow before them and the flow
-            # after them may then be joined.
+            # If the sum of the two durations is zero, both flows are dropped.
             if total.is_zero:
                 continue
             x = total
@@ -278,8 +279,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier can be each summand that does not depend on t, and the order of the method is always the
-        # same. The first of these summands is chosen.
+        # The carrier is the first summand that does not depend on t. The order of the method does not depend
+        # on this choice.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -1,9 +1,11 @@
 """The exponents of methods for y' = A(t).y. The exponents are elements of the Lie algebra.
 
 A tableau of format ``magnus`` defines the exponents as combinations of brackets. The innermost
-arguments of the brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the
-variable x and the power p. Thus a bracket needs no multiplications by h. For example, the bracket of the
-values at two nodes has the power 2.
+arguments of the brackets are the values h A(t + c_i h) at the nodes c_i.
+
+An element h^p x is stored as the variable x and the power p. For a bracket, the powers of both arguments are
+added, so the program does not multiply the arguments by h. For example, the bracket of the values at two
+nodes has the power 2.
 """
 
 from __future__ import annotations
@@ -48,30 +50,29 @@ class LieElements:
     def exponent(self, target: str, combination: Combination) -> Var:
         """Append an exponent of the step, and return its variable ``target``.
 
-        The value of the variable is the exponent itself, including all factors h.
+        The value of the variable includes all factors h.
         """
-        # With the power 0, the value h^0 times the variable is the variable itself.
+        # For the power 0, the variable is the whole exponent.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
-        """Append a combination, and return it as h^power times a variable.
+        """Append a linear combination to the program. Return its variable and its power of h.
 
-        By default, ``power`` is the least power of h in the terms.
+        By default, the power is the least power of h in the terms.
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # A sum without terms is zero. For zero, every power of h is correct, and the power 1 is used.
+        # A sum without terms is zero. Zero may have an arbitrary power of h. The default is 1.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
             return terms[0][1]
-        # A term is h^power times a variable. The new variable does not contain the factor h^least. Therefore
-        # the power of h in the coefficient of each term is lowered by ``least``.
+        # The sum is h^least times the new variable, so each term is divided by h^least.
         scaled = [(Coefficient(x, value.power - least), value.var) for x, value in terms]
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 
     def _value(self, term: Term) -> Scaled:
-        # Brackets may be nested, so one bracket may occur in several others. It is computed once.
+        # A term may occur in several brackets. Its value is computed only once.
         if term not in self.known:
             self.known[term] = self._new(term)
         return self.known[term]
@@ -84,16 +85,15 @@ class LieElements:
         if isinstance(term, str):
             return self._sum(term, self.elements[term])
         if isinstance(term, Bracket):
-            # [h^p x, h^q y] = h^(p+q) [x, y], so the powers are added and no product with h is needed.
+            # The bracket is bilinear, so the powers of h are added: [h^p x, h^q y] = h^(p+q) [x, y].
             x, y = self._value(term.left), self._value(term.right)
             return Scaled(self.build.bracket("bracket", x.var, y.var), x.power + y.power)
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append a product of the form x_1 x_2 ... x_2 x_1 with an odd number of factors.
+        """Append a product of an odd number of elements in symmetric order, such as x y z y x.
 
-        For the group of the matrices that preserve a bilinear form, such as SO(n), the Lie algebra contains
-        all these products.
+        If the group preserves a bilinear form, its Lie algebra contains these products. An example is SO(n).
         """
         factors = term.factors
         # Other products, such as x y, are in general not elements of the Lie algebra.
@@ -101,12 +101,12 @@ class LieElements:
             raise MethodError(
                 f"the product {spell(term)} is in general not an element of the Lie algebra",
                 where=self.method.label,
-                expected="an odd number of factors that form the same product in reverse order, as in 1*2*1",
+                expected="an odd number of factors in symmetric order, as in 1*2*1",
                 hint="write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y, where the tableau names s = x+y",
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])
-        # The product is built from its middle factor outwards: each round forms x r x from the result r.
+        # The product starts with the middle factor. Each iteration multiplies by one factor x on both sides.
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)

@@ -1,8 +1,8 @@
 """The base class of lowerings for linear differential equations y' = A(t).y.
 
-The matrix A may depend on t. It may also depend on constant coordinates of y, that is, on coordinates that do
-not change in time (:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on constant
-coordinates of the neighbours.
+The matrix A may depend on t, and on coordinates of y that are constant in time
+(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on constant coordinates of the
+neighbours.
 """
 
 from __future__ import annotations
@@ -35,20 +35,19 @@ if TYPE_CHECKING:
 class LinearLowering(FieldLowering):
     """A family of methods y1 = tau(X_m).(... tau(X_1).y0) for y' = A(t).y.
 
-    The exponents X_j are combinations of the values h A(t + c_i h) and their brackets, and tau is a map from
-    the algebra to the group. The values A(t + c_i h) do not depend on y, so a step has no equations for
-    stages.
+    Here tau is a map from the Lie algebra to the group, for example exp. The exponents X_j are combinations
+    of the values h A(t + c_i h) and of brackets of these values. The values do not depend on y, so there are
+    no stage equations to solve.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field depends on coordinates that change in time, and None otherwise.
+        """Return an objection if A depends on coordinates that change in time. Otherwise return None.
 
-        On a lattice, this includes the coordinates of neighbours.
+        On a lattice, these may be coordinates of a site or of its neighbours.
         """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # The field of a site depends on the states of neighbours, which change in the same step.
             return Objection(
                 ", because the field of a site depends on states that change, so the lattice is not of the "
                 "form y' = A(t).y",
@@ -78,8 +77,8 @@ class LinearLowering(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        The program evaluates A at the nodes, and forms the exponents X_j. For each X_j in turn, it replaces
-        the point y by tau(X_j).y (:meth:`move`).
+        The program evaluates A at the nodes, and computes the exponents X_1, X_2, ... from these values. In
+        this order, each exponent X_j moves the point y to tau(X_j).y (:meth:`move`).
         """
         if method.step:
             return self._stated(problem, method)
@@ -91,18 +90,18 @@ class LinearLowering(FieldLowering):
                 f"{method.tableau.family}",
                 expected="a tableau of format magnus",
             )
-        # A family may restrict its tableaux, for example to exponents without brackets.
+        # Some families raise an error for certain tableaux, for example for exponents with brackets.
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # A does not depend on coordinates that change in a step, so A is evaluated at y for all nodes.
+        # A contains only constant coordinates, so A is evaluated at the initial point y for all nodes.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
         # The first exponent acts first, so its exponential is the rightmost factor of the product.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
-        # The program has no block of equations, so it is built without ``Stages.program``.
+        # ``Stages.program`` is not used here, because it adds a block of equations for the stages.
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
         step = verify(Program(method.label, inputs, stages.builder.take(), (("y", point),)))
         return _with_momentum(problem, step)
@@ -114,7 +113,7 @@ class LinearLowering(FieldLowering):
                 f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "
                 "the step is not known to be symplectic",
                 where=problem.name,
-                expected="a step whose matrix is in the group, such as exp of an element of the algebra",
+                expected="a step matrix in the group, for example exp(X) with X in the Lie algebra",
             )
         # One operation computes the whole step, because the scene gives the matrix of the step.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
@@ -136,26 +135,25 @@ class LinearLowering(FieldLowering):
                 f"the order of {method.label} is unknown without a scene",
                 expected="the scene that defines the step",
             )
-        # The order is given by the scene. No order conditions are checked, so none can fail.
+        # The scene states the order, so no order conditions are checked.
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        On an abelian group all brackets are zero. A step is then the exact flow of the Hamiltonian
-        sum_i w_i H_i for the time h, and exact flows are symplectic. Here H_i is the Hamiltonian at the time
-        of node i, and w_i is a weight.
+        On an abelian group all brackets are zero. A step is the exact flow of a weighted sum of the
+        Hamiltonians at the times of the nodes. Exact flows of Hamiltonians are symplectic.
         """
         return bool(scene.group.abelian)
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``, extended by the momentum conjugate to time if the problem has such a momentum."""
+    """If the problem has a momentum conjugate to time, add its update to ``step``. Return the step."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:
         return step
-    # The momentum is computed last, because its formula contains the whole step.
+    # The formula for the momentum contains the whole step, so its statement is the last one.
     ((_, point),) = step.outputs
     # The new state consists of ``point``, the result of the step, and of the momentum u.
     moved = Var("y_with_u", Kind.POINT)

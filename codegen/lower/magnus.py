@@ -1,8 +1,7 @@
 """Magnus methods for y' = A(t).y: a step applies one exponential, or a product of several exponentials.
 
-The exponents are combinations of the values h A_i = h A(t + c_i h) and their brackets. The conventions are
-those of :mod:`orderconds.families.magnus`: with a left action, [2,1] is the bracket [A_2, A_1], and the first
-exponential acts first.
+The exponents are linear combinations of the values A_i = h A(t + c_i h) and of brackets of these values. In a
+tableau, [2,1] denotes the bracket [A_2, A_1]. The group acts from the left. The first exponential acts first.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Explicit Runge-Kutta-Munthe-Kaas methods with the smallest number of brackets.
 
 A step of size h from y0 to y1 for the field f is k_i = f(exp(u_i).y0), y1 = exp(u).y0. The exponents u_i and
-u are linear combinations of the h k_j and of brackets. The function
-:func:`orderconds.series.brackets.fewest_brackets` searches for the brackets. Their number is the smallest one
-for which the method has the order of its tableau.
+u are linear combinations of the values h k_j and of brackets. The function
+:func:`orderconds.series.brackets.fewest_brackets` searches for the smallest number of brackets for which the
+method has the order of its tableau.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs that earlier searches have found, one for each tableau.
+"""The bracket programs of earlier searches. Each tableau has one bracket program.
 
-A bracket program lists the brackets and the exponents of a step. Each key is a pair: the ring that contains
-the coefficients of the tableau, and these coefficients as strings.
+A bracket program lists the brackets and the exponents of a step. A key contains the ring of the coefficients
+and the coefficients of the tableau as strings.
 """
 
 
@@ -53,10 +53,10 @@ def bracket_program(method: Method) -> BracketProgram:
         raise MethodError(
             f"the search for the fewest brackets does not support the order {order} of {name}",
             expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
-            # The series of dexp^{-1} has the terms ad_u^j k, where u is the exponent of a stage and k is the
-            # field at the stage. Up to O(h^2), u is a multiple of h k. Since [k, k] = 0, it follows that
-            # ad_u^j k = O(h^{j+1}) for j >= 1. In the update, these terms are multiplied by h. Therefore the
-            # order does not change if the terms with j > order - 2 are omitted.
+            # Let u be the exponent of a stage, and k the field at the stage. The series of dexp^{-1} has the
+            # terms ad_u^j k. The exponent u is a multiple of h k, up to an error O(h^2), and [k, k] = 0.
+            # Hence ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies this term by h. Terms with
+            # j > order - 2 therefore do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the

@@ -7,9 +7,10 @@ Numerical Integration* (HLW):
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-The unknowns are the velocities xi_i and the forces n_i. If the velocity does not depend on q, it is evaluated
-at q0 in place of Q_i. If the force does not depend on p, it is evaluated at p0 in place of P_i. Then a later
-pass of the compiler can detect that the stages are explicit, as in the Stoermer-Verlet method.
+Here f(q, p, t) is the pair of the velocity and the force. The unknowns are the velocities xi_i and the
+forces n_i. If the velocity does not depend on q, it is evaluated at q0 in place of Q_i. If the force does not
+depend on p, it is evaluated at p0 in place of P_i. With these substitutions, the compiler can detect explicit
+stages, for example in the Stoermer-Verlet method.
 """
 
 from __future__ import annotations
@@ -51,20 +52,22 @@ class PartitionedLowering(Lowering):
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if it is proved that steps of the method are symplectic for the scene's Hamiltonian.
+        """Return True if the compiler proves that the steps are symplectic for the scene's Hamiltonian.
 
-        If H is not of the form T(p) + V(q, t), the result is True only if both tableaux have the same weights
-        (HLW Theorem VI.4.6).
+        For H = T(p) + V(q, t), the pair of tableaux must be symplectic. For all other H, both tableaux must
+        also have the same weights (HLW Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
-        # ``zero`` returns None if it cannot decide. Weights count as equal only if the equality is proved.
+        # If the ring cannot decide whether a number is zero, ``zero`` returns None. The test with ``is True``
+        # then treats the weights as different.
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the order conditions.
 
-        There are fewer conditions if the pair of tableaux is symplectic and H = T(p) + V(q, t).
+        For a symplectic pair of tableaux and H = T(p) + V(q, t), these are the conditions of the family
+        ``sprk_separable``. They are fewer than the conditions of ``prk``.
         """
         from orderconds import families
 
@@ -80,8 +83,7 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
-        # Stages can be explicit if the velocity does not depend on positions, or the force does not depend on
-        # momenta.
+        # These two values decide where the velocity and the force are evaluated.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:
@@ -94,12 +96,11 @@ class PartitionedLowering(Lowering):
                     *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
                 ]
                 P = build.lin(f"P{number}", Kind.DUAL, terms)
-                # The node c_i is the sum of row i of A. The start value of the sum is the first entry of the
-                # row, because the default start value, the integer 0, is not an element of the ring.
+                # The node c_i is the sum of row i of A. The sum starts with the first entry of the row,
+                # because the integer 0 is not an element of the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
-                # The velocity does not depend on q, so q0 may replace Q_i. The equation of v then contains no
-                # unknown velocities.
+                # The velocity does not depend on q, so q0 (the variable ``q``) may replace Q_i.
                 if not by_position:
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # The force does not depend on p, so p0 (the variable ``mu``) may replace P_i.
@@ -110,8 +111,7 @@ class PartitionedLowering(Lowering):
             return velocities + forces
 
         def starts() -> list[Var]:
-            # The initial guess of all velocities and forces is their value at the beginning of the step. Its
-            # error is O(h).
+            # The initial guesses are the velocity and the force at the beginning of the step.
             v, f = build.hamilton("v0", "f0", q, mu, *stages.at(None))
             return [v] * s + [f] * s
 
@@ -145,7 +145,7 @@ def _pair(method: Method) -> PartitionedRungeKutta:
 def separable(scene: Problem) -> bool:
     """Return True if H = T(p) + V(q, t).
 
-    In this case the velocity depends on p alone, and the force does not depend on p.
+    In this case the velocity depends only on p, and the force only on q and t.
     """
     return not reads_position(scene) and not reads_momentum(scene) and TIME not in _read(scene, False)
 
