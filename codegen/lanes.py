@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BatchRun:
-    """The result of a batch: the last states, the status of each system, and the numbers of completed steps.
+    """The final state, the status and the number of completed steps for each system of a batch.
 
-    The states are an array of shape (N, size). If a step of a system fails, the last state of this system is
-    the state before the failed step.
+    ``states`` has one row for each system. If a step of a system fails, the row contains the state before the
+    failed step.
     """
 
     states: Floats
@@ -43,9 +43,9 @@ class BatchRun:
 def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return the states of a batch as a new array of shape (size, N) with contiguous rows.
 
-    ``real`` is the number format of the module (``double`` or ``float``). ``states`` must be an array with N
-    rows, one for each state of ``size`` real numbers. It can also be a tuple of such arrays, one for each
-    part of the states, such as q and mu. In all other cases, and for N = 0, ValueError is raised.
+    ``real`` is the number format of the module (``double`` or ``float``). ``states`` is an array of N states
+    with ``size`` real numbers each, or a tuple of arrays. A tuple contains one array for each part of the
+    states, such as q and mu. ValueError is raised for other values of ``states``, and for N = 0.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
@@ -75,9 +75,10 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order, without copying it.
+    """Return the transpose of the array ``out`` without a copy.
 
-    ValueError is raised for an array of another shape, memory order or type, and for a read-only array.
+    ``out`` must be a writeable array of shape (N, size) in Fortran order, with the number format ``real``. In
+    all other cases, ValueError is raised.
     """
     import numpy as np
 
@@ -117,7 +118,7 @@ def chosen(
 ) -> list[tuple[str, object]]:
     """Return the name and the value of each parameter in ``known``.
 
-    The value is that in ``given``, or the default if ``given`` has no value for the parameter.
+    A value in ``given`` replaces the default value.
 
     TypeError is raised for an unknown name in ``given``, and for a parameter without a value.
     """

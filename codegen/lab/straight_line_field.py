@@ -1,9 +1,8 @@
 """The right-hand side of the differential equation of a scene as straight-line code (a list of assignments).
 
 The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
-state y. Every distinct expression of the right-hand side becomes one assignment, so that common
-subexpressions are computed once. The code is printed as statements of C, or as a Python function for several
-types of numbers, such as floats and Arb balls. It is used by reference solutions and by other integrators.
+state y. Each common subexpression of the right-hand side is computed only once. The code is printed as
+C statements, or as a Python function for several types of numbers, such as floats and Arb balls.
 """
 
 from __future__ import annotations

@@ -28,11 +28,7 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 MANY = 8
-"""The largest number of scenes for which a report measures each scene with the usual effort.
-
-A report on more scenes spends less time for each scene on the search for fast methods. It measures the growth
-of rounding errors only if the effort includes endurance runs.
-"""
+"""If a report has more than MANY scenes, the effort for each scene is reduced (:meth:`Effort.shared`)."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +58,14 @@ class Effort:
     def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for one scene of a report on several scenes.
 
-        ``scenes`` is the number of scenes of the report. If it is more than :data:`MANY`, the search time of
-        each scene is multiplied by MANY / ``scenes``. The growth of rounding errors is then measured only if
-        ``endurance`` is True.
+        ``scenes`` is the number of scenes of the report. If ``scenes`` is more than :data:`MANY`, the effort
+        is reduced:
 
-        ``processes`` is the number of scenes that are measured at the same time. If it is more than 1, the
-        search for one scene uses only one processor and is slower. Therefore the search time is multiplied by
+        - ``search`` is multiplied by MANY / ``scenes``.
+        - If ``endurance`` is False, ``rounding`` becomes False.
+
+        ``processes`` is the number of scenes that are measured at the same time. If ``processes`` is more
+        than 1, each search uses only one processor and is slower. Therefore ``search`` is multiplied by
         ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
@@ -106,10 +104,7 @@ class CompiledMethod:
 
     @property
     def files(self) -> list[tuple[str, str]]:
-        """The names and texts of the emitted files, sorted by name.
-
-        They are part of the keys in the cache of measurements.
-        """
+        """The names and texts of the emitted files, sorted by name."""
         return sorted(self.artifact.files.items())
 
 
@@ -145,8 +140,7 @@ class Subject:
     - ``methods``: the methods that run with equal steps.
     - ``adaptive``: the methods that run with step-size control.
     - ``peers``: the names of other integrators, which are compared with the methods.
-    - ``results``: maps the name of a measurement to its result. One measurement can thus use the result of
-      another measurement.
+    - ``results``: maps the name of a measurement to its result, which other measurements can use.
     - ``named``: True if the user chose the methods, False if they are the default methods.
     """
 
@@ -216,7 +210,7 @@ class Subject:
         return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
-        """Return the command line that repeats one measurement of this page. ``part`` is its name."""
+        """Return the command line that repeats the measurement named ``part`` for this page."""
         words = ["orderconds report", bare(self.name), *self._methods()]
         return " ".join([*words, f"--only {part}", "-o DIR"])
 

@@ -1,13 +1,12 @@
 """Measures the CPU time of a call in one process.
 
 A batch is a number of repeated calls, which are timed together. The time of a batch divided by its number of
-calls is a measured time of one call. Several batches are timed, and the least of these times is the result.
+calls is a measured time of one call. Several batches are timed. The least measured time is the result.
 Other processes can only increase a measured time, so the least time is the best estimate. A call from Python
 takes some time before the first step. A run of zero steps measures this overhead. The overhead is subtracted,
 so that short and long runs can be compared.
 
-All runs that are compared with each other are timed by :func:`span_times`: the runs of emitted methods and of
-other integrators.
+Emitted methods and other integrators are compared by the times that :func:`span_times` returns.
 """
 
 from __future__ import annotations
@@ -22,17 +21,15 @@ BATCH = 0.002
 
 BATCHES = 5
 FEWER = 3
-"""The usual number of timed batches is BATCHES. If one batch takes longer than :data:`LONG` seconds, only
-FEWER batches are timed.
-"""
+"""If one batch takes longer than :data:`LONG` seconds, at most this number of batches is timed."""
 
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""Limits for short runs. A short run is timed over several time spans of the scene (:func:`spans`).
+"""Limits for short runs. A run is short if it takes less than RESOLVED seconds.
 
-The number of spans is doubled until the run takes at least RESOLVED seconds, or until a further doubling
-would give more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
+A short run is timed over several time spans of the scene (:func:`spans`), with at most LEAST_STEPS steps in
+total. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -43,16 +40,16 @@ or until MOST batches have been timed.
 """
 
 SHORT = 1e-3
-"""A run that takes less than SHORT seconds is measured again if its time is too uncertain.
+"""A run that takes SHORT seconds or longer is not measured again.
 
-The largest accepted uncertainty is :data:`RESOLUTION`.
+A shorter run is measured again if its relative uncertainty exceeds :data:`RESOLUTION`.
 """
 
 RESOLUTION = 0.1
 """The largest accepted relative uncertainty of a time from which the overhead is subtracted.
 
-The absolute uncertainty is the sum of two differences: the difference of the two fastest batches of the run,
-and the difference of the two fastest batches of the overhead.
+The absolute uncertainty is the sum of two differences. One is the difference between the two least times of
+the run. The other is the difference between the two least times of the overhead.
 """
 
 AGAIN = 3
@@ -61,7 +58,7 @@ AGAIN = 3
 LEAST_SHARE = 0.1
 """The smallest fraction of a measured time that remains after the overhead is subtracted.
 
-If less would remain, this fraction of the measured time is used. Therefore no run has the time zero.
+If less would remain, the result is LEAST_SHARE times the measured time. Therefore no run has the time zero.
 """
 
 
@@ -79,12 +76,11 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU time of one call in seconds, as measured in each of several batches, in increasing
-    order.
+    """Return CPU times of one call in seconds, one for each batch of calls, in increasing order.
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. In all other cases, ``batches`` batches are
-    timed first. Further batches are then timed until the two least times differ by at most the fraction
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise, at least ``batches``
+    batches are timed. Their number grows until the two least times differ by at most the fraction
     :data:`CONFIRMED`, or until :data:`MOST` batches have been timed.
     """
     calls, first = 1, _batch(call, 1)
@@ -104,11 +100,11 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return the number of time spans over which a run must be timed, so that it is long enough.
+    """Return the number of time spans over which a run is timed.
 
-    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number n begins at 1 and
-    is doubled until the run takes at least :data:`RESOLVED` seconds. It is not doubled any more if the run
-    over 2 n spans would have more than :data:`LEAST_STEPS` steps, or if this run fails.
+    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number n begins at 1. It
+    is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. The doubling ends earlier if the next
+    run would have more than :data:`LEAST_STEPS` steps or would fail.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -129,18 +125,16 @@ def _least(run: Callable[[int], object], count: int) -> float:
 class Overhead:
     """The overhead of a call: the CPU time of a call that makes no step.
 
-    ``idle`` is a function that makes such a call. If ``idle`` is None, the overhead is zero. All runs of one
-    module in this process have the same overhead. The overhead is measured when it is first needed.
-    :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
+    The function ``idle`` makes a call without steps. If ``idle`` is None, the overhead is zero. All runs of
+    one module in this process have the same overhead. The overhead is measured when it is first needed. If
+    the time of a short run is too uncertain, :func:`net_times` measures the overhead again.
     """
 
     idle: Callable[[], object] | None
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """The CPU time of ``idle`` in seconds, as measured in each of several batches, in increasing
-        order.
-        """
+        """The CPU times of ``idle`` in seconds, one for each batch of calls, in increasing order."""
         return (0.0,) if self.idle is None else samples(self.idle)
 
     @property
@@ -162,7 +156,7 @@ class Overhead:
 def span_times(
     run: Callable[[int], int], overhead: Overhead, batch: float = BATCH, batches: int = BATCHES
 ) -> list[float]:
-    """Return the CPU time in seconds of a run over one time span, without the overhead of a call.
+    """Return CPU times in seconds of a run over one time span, without the overhead of a call.
 
     The result contains one time for each batch of runs, in increasing order. ``run(n)`` integrates over n
     time spans and returns the number of steps. A short run is timed over several time spans (:func:`spans`),
@@ -178,10 +172,10 @@ def span_times(
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
     """Return the times of a run in seconds without the overhead of a call, in increasing order.
 
-    ``sample()`` times the run and returns a list of times that include the overhead. A run is measured again,
-    together with the overhead, if it takes less than :data:`SHORT` seconds and its relative uncertainty
-    exceeds :data:`RESOLUTION`. It is measured again at most :data:`AGAIN` times. At least the fraction
-    :data:`LEAST_SHARE` of each measured time remains after the overhead is subtracted.
+    ``sample()`` times the run and returns a list of times that include the overhead. A run is short if it
+    takes less than :data:`SHORT` seconds. If the relative uncertainty of a short run exceeds
+    :data:`RESOLUTION`, the run and the overhead are measured again, at most :data:`AGAIN` times. If the
+    overhead is almost as long as a measured time, the fraction :data:`LEAST_SHARE` of this time is returned.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -197,7 +191,7 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 def spread(times: Sequence[float]) -> float | None:
     """Return the relative spread s of a sorted list of times, or None if the smallest time is zero.
 
-    Let m be the smallest time. Three quarters of the times are at most (1 + s) m.
+    Let m be the smallest time. About three quarters of the times are at most (1 + s) m.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -207,7 +201,7 @@ def spread(times: Sequence[float]) -> float | None:
 
 def _batch(call: Callable[[], object], calls: int) -> float:
     # If the CPU time of the process is limited (``ulimit -t``), Linux updates the CPU clock of the process
-    # only every few milliseconds. The CPU clock of the thread is exact even then, but does not include other
+    # only every few milliseconds. The CPU clock of the thread is always exact, but does not include other
     # threads. The larger of the two measured times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):

@@ -1,23 +1,22 @@
-"""Single steps with extreme input: the result of emitted code is compared with the interpreter in 60 digits.
+"""Single steps with extreme input: the result of emitted code is compared with an exact result.
 
-The interpreter computes the exact result of the step and several probes. A probe repeats this step in 60
-digits, and adds one rounding error of a double to each number of the input and to the result of every
-operation. The difference between the probes and the exact result shows how large the effect of rounding on
-the result can be. It also shows how many digits of the result rounding does not change. The input
-*determines* only these digits.
+The interpreter computes the exact result with at least 60 digits. The interpreter also computes several
+probes. A probe repeats the step with simulated rounding errors of a double in the input and in the result of
+every operation. The differences between the probes and the exact result show how much rounding can change
+the result. The input *determines* the digits that rounding does not change.
 
 There are three verdicts:
 
-- A result is *accurate* if rounding can cause its error and at least :data:`LEAST` digits are correct.
-- A result is *undetermined* if rounding can cause its error and fewer digits are correct. For example, a
-  rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
-- A result is *wrong* if rounding cannot cause its error, or if it is not finite.
+- *wrong*: the result is not finite, or rounding cannot cause its error.
+- *accurate*: rounding can cause the error, and at least :data:`LEAST` digits are correct.
+- *undetermined*: rounding can cause the error, and fewer digits are correct. For example, a rotation by 1e20
+  radians has no correct digit. The emitted code should return a status for this step.
 
 Correct digits are counted separately for each component of the state, such as a group element or a momentum.
 
 The equations of an implicit method can have several solutions. The interpreter first uses fixed-point
-iteration. If this iteration does not converge, the interpreter uses Newton's method, which starts from the
-solution of the emitted code. The exact result is computed from the solution that the interpreter finds.
+iteration. If this iteration does not converge, the interpreter uses Newton's method. The solution of the
+emitted code is the starting value of Newton's method.
 """
 
 from __future__ import annotations
@@ -53,9 +52,9 @@ TINY = 2.0**-1022
 """The smallest normal double. A result with an absolute value below TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""An error is attributed to rounding if it is at most about ROUNDINGS times the largest error of a probe.
+"""Rounding can cause an error of up to about ROUNDINGS times the largest error of a probe.
 
-A probe repeats the step in 60 digits, and adds one rounding error of a double to each result of an operation.
+A probe repeats the step with many digits and with simulated rounding errors.
 """
 
 LEAST = 3
@@ -76,7 +75,7 @@ If the fixed-point iteration does not converge, Newton's method is used.
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} correct digits"
-UNSOLVED = f"{WRONG}: the equations of this step have no solution near the result"
+UNSOLVED = f"{WRONG}: the interpreter found no solution of the implicit equations"
 
 ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e300)
 STEPS = (1e-300, 1e-12, 1e-8, 1e-4)
@@ -101,9 +100,9 @@ class Answer:
     """The verdict on the result of a step with extreme input.
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
-    ``error`` is the largest relative error of a component of the state, such as a momentum. ``determined`` is
-    the number of decimal digits of the result that rounding errors do not change. Both numbers are None if
-    the result could not be compared with an exact result.
+    ``error`` is the largest relative error of a component of the state, such as a momentum. Rounding
+    errors do not change the first ``determined`` decimal digits of the result. If the result could not be
+    compared with an exact result, both numbers are None.
     """
 
     case: Case
@@ -126,9 +125,9 @@ class Answer:
 def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the inputs of the steps to test.
 
-    The first input is the initial state of the scene with a hundredth of the time span as step size. In each
-    further input, the step size or a component of the state has an unusual value, for example zero, a very
-    large number or NaN.
+    The first input is the initial state of the scene, with a step size of one hundredth of the time span. In
+    each further input, the step size or a component of the state has an unusual value. Examples are zero, a
+    very large number and NaN.
     """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
@@ -155,10 +154,7 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the indices of some coordinates of the state.
-
-    These are the first coordinate of each component (such as a momentum), and the last coordinate.
-    """
+    """Return the first index of each component of the state, and the last index of the state."""
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -169,8 +165,8 @@ def _firsts(compiled: Compiled) -> list[int]:
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
     """Return a copy of ``state`` in which some components are multiplied by ``scale``.
 
-    These components are momenta, points on which rotations act, and elements of abelian groups. The result is
-    None if the state has no such component, or if a number overflows.
+    Momenta and points on which rotations act are multiplied. If the group is abelian, all components are
+    multiplied. If no component is multiplied or a number overflows, the result is None.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -185,9 +181,9 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return |f(y)|, where y is the state and f is the field of the scene with values in the Lie algebra.
+    """Return the norm of the Lie algebra element that moves the group element or point of the state.
 
-    For groups of rotations, |f(y)| is the angle of rotation per unit of time.
+    For groups of rotations, this norm is the angle of rotation per unit of time.
     """
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
@@ -249,10 +245,11 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and a list with the state after each probe, in 60 digits.
+    """Return the exact state after the step, and a list with the state after each probe.
 
-    A probe repeats the step with simulated rounding errors. If the step size is above 1, Newton's method and
-    the probes use more than 60 digits, because the equations of such a long step lose digits by cancellation.
+    A probe repeats the step with simulated rounding errors. All numbers have at least 60 digits. If the step
+    size is above 1, the equations lose digits by cancellation. Newton's method and the probes therefore use
+    more than 60 digits for long steps.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -298,11 +295,11 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random. If an operation is repeated in a step, its error has the same sign
-    each time. Therefore the equations of an implicit method remain smooth. Two rounding errors are added to
-    the right-hand side r of each implicit equation. The first error is proportional to r, and is zero where r
-    is zero. The second error is proportional to the right-hand side of the next equation, which is usually
-    not zero at the same point.
+    The signs of the errors are random. If an operation is repeated in a step, its error keeps its
+    sign. The equations of an implicit method are therefore the same in each iteration. Two rounding errors
+    are added to the right-hand side r of each implicit equation. The first error is proportional to r. Where
+    r is zero, the first error vanishes. The second error is proportional to the right-hand side of another
+    equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -313,8 +310,7 @@ class Rounding(BallDomain):
             self.unit = arb(EPSILON)
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return ``value`` with one rounding error in each component. ``value`` is the result of an
-        operation.
+        """Return ``value``, the result of an operation, with one rounding error in each component.
 
         ``name`` is the name of the result in the program of the step.
         """
@@ -328,10 +324,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the right-hand sides ``images`` of implicit equations, each with two rounding errors.
-
-        The docstring of the class describes the two rounding errors.
-        """
+        """Return the right-hand sides ``images`` of implicit equations with simulated rounding errors."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -341,7 +334,7 @@ class Rounding(BallDomain):
     def increment(self, x: Scalar) -> Scalar:
         """Return the increment of ``x`` for a difference quotient: 2^-40 max(1, |x|).
 
-        The difference quotient has fewer correct digits than the arithmetic, but enough for Newton's method.
+        The difference quotient is accurate enough for Newton's method.
         """
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
@@ -360,8 +353,8 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the interpreted program, as mpmath numbers with many digits.
 
-    - ``near``: the starting values of Newton's method, as one list for each system of implicit equations. The
-      list is changed in place: the solutions replace the starting values.
+    - ``near``: the starting values of Newton's method, one list for each system of implicit equations. The
+      solutions replace the starting values in place.
     - ``limit``: the largest number of iterations for implicit equations.
     - ``newton``: False to use only fixed-point iteration.
     - ``probe``: the seed of the random rounding errors that are added to the result of each operation, or
@@ -407,8 +400,8 @@ def solved_step(
     """Return the state after one step, computed by the interpreter with :data:`DIGITS` digits.
 
     Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method is used. It starts from the solution of the emitted code. Raises ArithmeticError or ValueError if
-    no solution is found.
+    method is used. Newton's method starts from the solution of the emitted code. Raises ArithmeticError or
+    ValueError if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

@@ -1,9 +1,13 @@
 """The largest usable step size of a method on a scene, and the reason why longer steps are not usable.
 
-The time span of the scene is divided into n equal steps. The number n is usable if no step fails, and if the
-final error is at most a tenth of the size of the state. If the scene has a conserved energy, n is usable only
-if the energy changes by at most a tenth of its size. Bisection finds a usable number n such that n - 1 is not
-usable. The reason explains why n - 1 steps are not usable.
+The time span of the scene is divided into n equal steps. The run is usable if it satisfies three conditions:
+
+- No step fails, and the final state is finite.
+- The error of the final state is at most a tenth of the size of the state.
+- If the scene has a conserved energy, the energy changes by at most a tenth of its size.
+
+Bisection finds a usable run with n steps such that the run with n - 1 steps is not usable. The reason
+explains why the run with n - 1 steps is not usable.
 """
 
 from __future__ import annotations
@@ -26,11 +30,10 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The largest usable step size ``h``, and the number of such steps in the time span.
+    """The largest usable step size ``h``, and the number ``steps`` of these steps in the time span.
 
-    ``reason`` explains why ``steps`` - 1 steps are not usable. If none of the tested numbers of steps up to
-    :data:`MOST` is usable, ``h`` and ``steps`` are None. ``reason`` then explains why the largest tested
-    number is not usable.
+    ``reason`` explains why longer steps are not usable. If no usable step size is found, ``h`` and ``steps``
+    are None, and ``reason`` explains why.
     """
 
     h: float | None
@@ -45,8 +48,8 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    The number of steps begins at 1. It is doubled until a run with this number of steps is usable. The
-    smallest usable number is then found by bisection.
+    The number of steps begins at 1. It is doubled until the run is usable. Bisection then finds a usable
+    run with n steps such that the run with n - 1 steps is not usable.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1
@@ -79,7 +82,7 @@ def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) 
     if energy is not None and scene.autonomous:
         before, after = energy(runner.initial, float(first))[0], energy(end, float(last))[0]
         if abs(after - before) > USABLE * max(abs(before), abs(after)):
-            return "the energy changes by more than a tenth"
+            return "the energy changes by more than a tenth of its size"
     size = max(1.0, math.hypot(*map(float, exact.state)))
     if distance(scene, end, exact.state) > USABLE * size:
         return "the error is above a tenth of the state's size"

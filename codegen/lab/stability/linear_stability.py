@@ -1,11 +1,11 @@
 """Linear stability: the stability function of a tableau, and its stability intervals on the real and
 imaginary axes.
 
-If a Runge-Kutta method is applied to y' = lambda y, a step of size h is y1 = R(h lambda) y0. Here R is the
-stability function.
+If a Runge-Kutta method solves y' = lambda y, each step of size h multiplies y by R(h lambda). The function R
+is the stability function of the method.
 
 A Lie group method for y' = f(y).y, where f(y) is in the Lie algebra, multiplies the state by exponentials of
-elements of the Lie algebra. If f is constant, its steps are therefore exact, even if they are long. The
+elements of the Lie algebra. If f is constant, steps of every length are therefore exact. The
 stability region of the tableau limits the step size only if f(y) varies along the solution.
 """
 
@@ -25,9 +25,7 @@ SLACK = 1e-9
 
 @dataclass(frozen=True)
 class Quotient:
-    """A rational function of a complex number z. The coefficients are in ascending order of the powers of
-    z.
-    """
+    """A rational function of a complex number z, with the coefficients in ascending powers of z."""
 
     numerator: tuple[float, ...]
     denominator: tuple[float, ...]
@@ -43,9 +41,9 @@ class Region:
     """The stability function of a method, and its stability intervals.
 
     ``label`` is the name of the method, and ``value`` is the stability function R. A stability interval
-    begins at zero and contains only points z with |R(z)| <= 1. ``real`` is the length of the interval on the
-    negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. A length
-    above :data:`FARTHEST` is replaced by infinity.
+    begins at zero. All points z of the interval satisfy |R(z)| <= 1. ``real`` is the length of the interval
+    on the negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. A
+    length above :data:`FARTHEST` is replaced by infinity.
     """
 
     label: str
@@ -54,9 +52,7 @@ class Region:
     imaginary: float
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. The length of an unbounded interval becomes
-        None.
-        """
+        """Return plain data, which can be written as JSON. An infinite length becomes None."""
         return {
             "real": None if self.real == float("inf") else self.real,
             "imaginary": None if self.imaginary == float("inf") else self.imaginary,
@@ -66,8 +62,8 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the stability function and the stability intervals of the tableau of a method.
 
-    The tableau is used as a Runge-Kutta method on R^n. The result is None if the stability function is not
-    known, as for splitting methods and for tableaux whose coefficients are not exact.
+    The tableau is used as a Runge-Kutta method on R^n. If the stability function is not known,
+    the result is None. Examples are splitting methods and tableaux with inexact coefficients.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:

@@ -1,4 +1,4 @@
-"""Measures order reduction: the observed order on stiff variants of a scene, with long steps.
+"""Measures order reduction: the observed order of long steps on stiff variants of a scene.
 
 A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
 span. In each further run, the step size h is half that of the run before. A run is in the stiff regime if the
@@ -28,7 +28,7 @@ from codegen.scene.stiff_variant import StiffVariant
 DOUBLINGS = 15
 """The largest number of runs. Each run has twice as many steps as the run before.
 
-Fewer runs are made if the error becomes as small as rounding errors.
+If the error of a run is as small as rounding errors, this run is the last.
 """
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
@@ -38,7 +38,7 @@ The error is None if the run failed. The reason is '' if the run succeeded.
 """
 
 CLOSE = 0.1
-"""A run is used to compute slopes only if its error is less than CLOSE times the size of the state."""
+"""The observed order is computed from runs with errors less than CLOSE times the size of the state."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ class OrderReduction:
     - ``rate``: the rate of the fast motion.
     - ``stated``: the order computed from the order conditions.
     - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
-    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if no two successive runs
-      with such steps are accurate enough.
+    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if too few of these runs
+      are accurate enough.
     - ``verdict``: a sentence about the observed order or the usable step sizes.
     """
 
@@ -118,7 +118,10 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
 def _verdict(
     stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
 ) -> str:
-    """Return a sentence about the observed order, or about the usable step sizes if no order is observed."""
+    """Return a sentence about the observed order.
+
+    If no order is observed, the sentence describes the usable step sizes.
+    """
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]

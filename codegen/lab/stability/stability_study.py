@@ -26,7 +26,7 @@ from orderconds.errors import InputError
 class Findings:
     """The results of the stability tests that execute steps of the method.
 
-    - ``limit``: the largest usable step.
+    - ``limit``: the largest usable step size.
     - ``answers``: for each step with extreme input, the verdict on its result.
     - ``stiff``: for each stiff variant of the scene, the errors of the runs and the observed order.
     - ``endurance``: the results of the runs of many steps.
@@ -123,8 +123,8 @@ def stability(
     """Test the stability of each method on a scene, and yield the results of one method at a time.
 
     If ``endurance`` is True, runs of many steps are included. For a method that cannot be tested, the result
-    is a :class:`NotTested` with the reason. The largest usable step is measured only if the scene has a
-    reference solution.
+    is a :class:`NotTested` with the reason. If the scene has no reference solution, the largest usable step
+    is not measured.
     """
     progress(f"{scene.name}: reference solution")
     exact = reference_or_reason(scene)
@@ -171,7 +171,7 @@ def findings(
     *,
     endurance: bool = True,
 ) -> Findings:
-    """Make all stability tests of one compiled method, on its scene and on the stiff variants ``stiff``.
+    """Run the stability tests of one compiled method on its scene and on the stiff variants ``stiff``.
 
     ``exact`` is the reference solution of the scene, or the reason why it could not be computed. If
     ``endurance`` is True, runs of many steps are included.
