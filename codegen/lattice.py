@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 class LatticeRun(ArrayRun):
     """The result of a run on a lattice with n1 x ... x nd sites and ``size`` numbers for each site.
 
-    ``states`` contains the last states as an array of shape (n1, ..., nd, size).
+    ``states`` contains the final states as an array of shape (n1, ..., nd, size).
     """
 
     states: Floats
@@ -39,10 +39,12 @@ class Lattice(ArrayModule, ABC):
         """Return the states of all sites after ``steps`` steps of size h from time t.
 
         ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
-        fails, the result contains the status and the states before this step. ValueError is raised for an
-        array of another shape, for states that are not finite, and for numbers of sites that the method does
-        not allow. TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is
-        raised if there is not enough memory.
+        fails, the result contains the status and the states before the failed step.
+
+        ValueError is raised if ``states`` has a wrong shape or contains a number that is not finite. It is
+        also raised if the method does not allow the numbers of sites n1, ..., nd. TypeError is raised for
+        arguments of a wrong type and for unknown parameters. InputError is raised if there is not enough
+        memory.
         """
         import numpy as np
 
@@ -100,8 +102,8 @@ class Lattice(ArrayModule, ABC):
 
         Return the status and the number of completed steps.
 
-        - ``shape``: the numbers of sites n1, ..., nd in each direction.
-        - ``table``: an array of shape (size, n1, ..., nd), or of shape (size, n) for n sites in total.
+        - ``shape``: the numbers of sites (n1, ..., nd) in the d directions.
+        - ``table``: the states, an array of shape (size, n1, ..., nd) or (size, n1 x ... x nd).
         - ``moment``: t, h and the number of steps.
         - ``values``: the values of the run-time parameters.
         - ``work``: an array for intermediate results.
@@ -111,7 +113,7 @@ class Lattice(ArrayModule, ABC):
 
 
 class CompiledLattice(Lattice):
-    """An emitted C module for a lattice, in a shared object."""
+    """A compiled C module for a lattice."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
         from cffi import FFI

@@ -23,22 +23,22 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# VECTOR_FLAGS allow the compiler to turn loops over systems, sites or modes into vector instructions. Two of
-# these flags say that the module reads neither errno nor the flags of floating-point exceptions.
+# With VECTOR_FLAGS, the compiler can use vector instructions in loops over systems, sites or modes. Two of
+# the flags assume that the module does not read errno or the flags of floating-point exceptions.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
-"""The compiler flags of modules for lattices and semilinear equations, and of modules that can integrate many
-independent systems at once (a batch).
-"""
+"""The compiler flags for modules that loop over lattice sites, Fourier modes or a batch of systems."""
 
 
 def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
     """Load an emitted module as an integrator.
 
     ``source`` is the result of :func:`codegen.emit`, or a folder of emitted files with a manifest. If the
-    folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled
-    if the compiled module is not in the cache. CompilerMissing and CompileError are raised if the code
-    cannot be compiled. InputError is raised for a folder without such a module, and for a module that
-    :func:`load_lattice` or :func:`load_spectral` must load.
+    folder contains several modules, ``module`` and ``target`` choose one of them. A C module is compiled
+    unless the cache contains the compiled module.
+
+    CompilerMissing is raised if there is no C compiler, and CompileError if the compiler fails. InputError is
+    raised if the folder does not contain the module. It is also raised if the module is for a lattice
+    (:func:`load_lattice`) or a semilinear equation (:func:`load_spectral`).
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
@@ -49,8 +49,8 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Load an emitted module for a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments and the errors are those of :func:`load`. InputError is also raised for a module of any
-    other kind.
+    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised for the same reasons.
+    InputError is raised if ``source`` does not contain the module, or if the module is not for a lattice.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
     lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
@@ -61,8 +61,9 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Load an emitted module for a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments and the errors are those of :func:`load`. InputError is also raised for a module of any
-    other kind.
+    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised for the same reasons.
+    InputError is raised if ``source`` does not contain the module, or if the module is not for a semilinear
+    equation.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
@@ -75,16 +76,16 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""Maps the name of each function that loads modules to the kind of problem that these modules solve."""
+"""For each loading function, the kind of problem that its modules solve."""
 
 
 def _opened(
     source: object, module: str, target: str, where: str
 ) -> tuple[Artifact, Interface, dict[str, float]]:
-    """Return an artifact, its interface, and the default values of its parameters.
+    """Return the artifact of a module, its interface, and the default values of its parameters.
 
-    ``where`` is the name of the calling function. InputError is raised if the calling function cannot load
-    the module.
+    ``where`` is the name of the calling function, for example ``load``. InputError is raised if this function
+    cannot load the module.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
@@ -127,8 +128,7 @@ def _compiled(
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The cached file is not a library, or the library lacks functions of the module. Therefore the module
-        # is compiled again.
+        # The file in the cache is not a library, or it lacks functions. The module is compiled again.
         return kind(interface, defaults, build(files, flags, again=True))
 
 

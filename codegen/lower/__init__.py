@@ -1,10 +1,11 @@
 """A lowering translates a method and a scene into the program of one step.
 
 A method is a tableau together with a family such as ``rkmk``. A scene describes the differential equation.
-Each family has a subclass of :class:`Lowering` in a file of its own. The function :func:`register` adds
-further lowerings.
+A lowering is an object of a subclass of :class:`Lowering`. Each family has one lowering. The function
+:func:`register` adds the lowering of a new family.
 
-Many programs contain equations for the stages. The equations of all stages form one system, called a block.
+The stages of many methods are defined by equations. In the program, the equations of all stages form one
+system, called a block.
 """
 
 from __future__ import annotations
@@ -52,15 +53,15 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 
 
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
-    """Return the method that ``given`` denotes, for use on a scene (:func:`codegen.method.method_of`).
+    """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
 
-    ``given`` or ``family`` may name a family. If this family does not accept the scene, :class:`MethodError`
-    is raised. Its message gives the reason.
+    ``given`` or ``family`` can name the family of the method. :class:`MethodError` is raised if the family
+    does not accept the scene. The message gives the reason.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
         return stated
-    # A text such as ``cf:cf4`` contains the name of the family. A Tableau does not contain such a name.
+    # A text such as ``cf:cf4`` names the family ``cf``. A Tableau names no family.
     named = family if isinstance(given, Tableau) or family else family_in(given)
     # A name such as ``rkmk(2)`` consists of the family ``rkmk`` and the cut-off 2.
     known = named.partition("(")[0]
@@ -69,8 +70,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # ``error.claimed`` names the families for which the tableau file states an order. If one of them does
-        # not accept the scene, _check says why. This helps the user more than the message of ``error``.
+        # The tableau file states an order for each family in ``error.claimed``. If such a family does not
+        # accept the scene, the user needs the reason. _check raises an error with this reason.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -78,10 +79,10 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 
 
 def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
-    """Return the method that a text ``step:NAME`` denotes, or None for other texts.
+    """Return the method for a text ``step:NAME``, or None if ``given`` is not such a text.
 
-    The method uses the step NAME of the scene. :class:`MethodError` is raised if the scene defines no such
-    step.
+    The method uses the step NAME of the scene. :class:`MethodError` is raised if the scene does not define
+    the step NAME.
     """
     word, colon, name = given.strip().partition(":") if isinstance(given, str) else ("", "", "")
     if word != STEP or not colon:
@@ -116,17 +117,17 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the program of one substep, or None if the step is not divided into substeps.
+    """Return the program of one substep of a composition.
 
-    All substeps are steps of one method, called the base method, with different lengths. The program also
-    lists the substeps: the length of each substep, and the time at which it begins.
+    Each substep is a step of the same method, called the base method. The program lists the length and the
+    initial time of each substep.
+
+    The result is None if the program must compute the whole step.
     """
-    # In some families, the step of a composition is not divided into substeps. For example, VRKMK uses one
-    # exponential for the whole step.
+    # For example, a VRKMK method uses one exponential for the whole step.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because a tableau file need not say that the method
-    # is a composition.
+    # A composition can be given as a Butcher tableau. Its coefficients then show that it is a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

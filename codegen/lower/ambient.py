@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The numerical solution leaves the manifold. The distance from the manifold is about as large as the error of
-the solution.
+In general, the numerical solution leaves the manifold. Since the exact solution is on the manifold, the
+distance of the numerical solution from the manifold is at most its error.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ class Ambient(Lowering):
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the manifold is an open subset of R^n. A step may leave any other manifold."""
+        """Return True if the manifold is an open subset of R^n."""
         return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the equation for the coordinates of the state, as a scene on R^n."""
+        """Return the scene with the equation y' = F(y) on R^n, where y are the coordinates of the state."""
         # The derived scene is stored, because deriving it takes time.
         if "ambient" not in scene.derived:
             scene.derived["ambient"] = ambient(scene)
@@ -39,6 +39,5 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a Runge-Kutta step in coordinates."""
-        # On R^n, every group element acts as a translation: exp(u).y = y + u. All brackets vanish. Therefore
-        # the RKMK method without brackets is the Runge-Kutta method of the same tableau.
+        # On R^n, exp(u).y = y + u and all brackets vanish. An RKMK method is then a Runge-Kutta method.
         return with_cutoff(problem, method, 0)

@@ -1,8 +1,8 @@
 """The base class of lowerings. A lowering turns a tableau and a problem into a step program.
 
-Two classes define a family of methods. :class:`orderconds.families.Family` defines its order conditions.
-:class:`Lowering` decides which scenes the family accepts, and makes the step programs. All commands accept
-the family after its lowering is registered by :func:`codegen.lower.register`.
+Each family of methods has two objects. A :class:`orderconds.families.Family` defines the order conditions. A
+:class:`Lowering` decides which scenes the family accepts, and makes the step programs. The function
+:func:`codegen.lower.register` makes a family available to all commands.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class Objection:
 
 
 def without_formulas(scene: Problem) -> Objection | None:
-    """Return an objection to a scene whose field has no formulas in coordinates, and None for other scenes.
+    """Return None if the field of a scene has formulas in coordinates, and an objection otherwise.
 
-    Scenes with large matrices and semilinear scenes have no such formulas.
+    Scenes with large matrices and semilinear scenes have no formulas in coordinates.
     """
     # ``roots`` are the formulas of the field in coordinates.
     if scene.roots:
@@ -45,7 +45,7 @@ def without_formulas(scene: Problem) -> Objection | None:
     # The state of a semilinear equation is a function of space. Its field has no formulas in coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
-    # The families in the hint compute with matrices in loops, so they need no formula for each coordinate.
+    # The families in the hint do not need formulas in coordinates. They compute with whole matrices.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas with large matrices as operands",
@@ -69,32 +69,32 @@ class Lowering(ABC):
     family: ClassVar[str] = ""
     """The name of the family in :mod:`orderconds.families` and in method names such as ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the step programs advance the state (q, mu) of a Hamiltonian scene.
+    """True if the methods compute the position q and the momentum mu of a Hamiltonian scene.
 
-    If False, the step programs advance the point y of a vector field.
+    If False, the methods solve the differential equation of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The rank of the family. It is used if the user names a tableau without a family.
+    """The preference for this family if the user names a tableau without a family.
 
-    A tableau file states an order for one or more families. The compiler chooses the family with the highest
-    order. If several families have this order, the compiler chooses the family with the largest rank.
+    A tableau file states an order of accuracy for one or more families. The compiler chooses the family with
+    the highest order. If orders are equal, it chooses the family with the largest preference.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if the family divides the step of a composition into substeps.
+    """True if the step of a composition may be computed as a sequence of substeps.
 
-    It is False, for example, for VRKMK methods, which compute the whole step with one exponential.
+    For VRKMK methods, for example, the value is False: one exponential computes the whole step.
     """
 
     reads_coordinates: ClassVar[bool] = False
     """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`).
 
-    If False, the methods use the exponential map.
+    If False, the methods do not use it. Most of them use the exponential map.
     """
 
     in_coordinates: ClassVar[bool] = False
-    """True if the methods solve the equation in R^n for the coordinates of the state.
+    """True if the methods solve an equation in R^n for the coordinates of the state.
 
-    Such methods can be used on each classical form of the equation (:mod:`codegen.scene.classical_forms`).
+    These methods can use other coordinates, for example quaternions (:mod:`codegen.scene.classical_forms`).
     """
 
     def keeps_manifold(self, scene: Problem) -> bool:
@@ -111,47 +111,46 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return a line for the header of the emitted file that says which values a step stores.
+        """Return a line for the header of the emitted file. The line lists the values that a step stores.
 
-        If the result is '', the header contains no such line.
+        If the result is '', the header does not contain the line.
         """
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the problem that :meth:`lower` turns into a program. It states the equation of the scene.
+        """Return the problem that :meth:`lower` turns into a program, for a scene and a method.
 
-        The family must accept the scene (:meth:`objection`). :class:`codegen.errors.MethodError` is raised if
-        ``method`` cannot be used on the scene.
+        The family must accept the scene (:meth:`objection`). If ``method`` cannot be used on the scene,
+        :class:`codegen.errors.MethodError` is raised.
         """
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the step program of a method. The program is checked by :func:`codegen.ir.verify.verify`.
+        """Return the step program of a method, checked with :func:`codegen.ir.verify.verify`.
 
-        If the stages are given by equations, these equations form one block of the program.
+        ``problem`` is the result of :meth:`problem`. If equations define the stages, these equations form one
+        block of the program.
 
-        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family cannot use the format of the tableau. :class:`orderconds.errors.ZeroWeight` is raised if the
-        formulas divide by a weight b_i that is zero.
+        :class:`codegen.errors.MethodError` is raised if the family cannot use tableaux of this format.
+        :class:`orderconds.errors.ZeroWeight` is raised if the program would divide by a weight b_i = 0.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if steps of constant size are symplectic maps on a Hamiltonian scene.
+        """Return True if a step of constant size is a symplectic map on a Hamiltonian scene.
 
-        By default the result is True if the group G is abelian and the tableau is symplectic.
+        By default the result is True if the group is abelian and the tableau is symplectic.
         """
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # A tableau is symplectic if b_i a_ij + b_j a_ji = b_i b_j for all i, j. The function symplectic()
-        # returns None if it cannot decide whether these equations hold.
+        # The function symplectic() returns None if it cannot decide whether the tableau is symplectic.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
         """Return the degree of a Taylor method, or 0 for all other methods.
 
-        A step of a Taylor method evaluates the Taylor polynomial of the solution.
+        A Taylor method computes a step from the Taylor polynomial of the solution.
 
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low for
         step-size control.
@@ -161,9 +160,9 @@ class Lowering(ABC):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return a program for the continuous extension of a method, or None if the method has none.
 
-        The continuous extension gives the solution inside a step. At the time t + theta h, the solution is
-        exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra. The
-        outputs of the program are the coefficients of theta, theta^2, ... in sigma.
+        The continuous extension gives the solution inside a step of size h from the state y at time t. At the
+        time t + theta h, the solution is exp(sigma(theta)).y. Here sigma is a polynomial with values in the
+        Lie algebra. The program returns the coefficients of theta, theta^2, ... in sigma.
         """
         return None
 
@@ -174,12 +173,12 @@ class Lowering(ABC):
         """
         from orderconds import families
 
-        # The label is, for example, ``rkmk(2)``. Its number 2 is the number of brackets in the truncated
-        # series of dexp^{-1}. The order conditions depend on this number.
+        # The order conditions of ``rkmk(2)``, for example, depend on the number 2. It is the number of
+        # brackets in the truncated series of dexp^{-1}.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`. The order may be undecided."""
+        """Return the order of a method according to :meth:`conditions`."""
         from orderconds.checking import check
 
         # ``orders`` contains one order for each checked family. Here only one family is checked.

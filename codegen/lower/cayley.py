@@ -1,7 +1,7 @@
 """Cayley methods for y' = A(t).y: y1 = cay(Omega).y0 with cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a combination of the values h A(t + c_i h) at nodes c_i, of their brackets, and of products such as
-X Y X of two of these values X and Y. The algebra of the group must contain these products
+Omega is a linear combination of the values A_i = h A(t + c_i h) at the nodes c_i, of brackets of these
+values, and of products such as A_1 A_2 A_1. The Lie algebra of the group must contain these products
 (:mod:`orderconds.families.cayley`).
 """
 
@@ -22,11 +22,11 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene, or None.
+        """Return the reason why the family does not accept a scene, or None if the family accepts it.
 
-        The family accepts a scene if the field does not depend on the state and the group has a Cayley map.
+        The family accepts a scene if the equation has the form y' = A(t).y and the group has a Cayley map.
         """
-        # ``linear`` is an objection to the scene if its equation is not of the form y' = A(t).y.
+        # ``linear`` is None if the equation has the form y' = A(t).y.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:
@@ -38,5 +38,5 @@ class CayleyLowering(LinearLowering):
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
         """Append the operations for cay(x).y to the program, and return the result."""
-        # cay(x) is a group element, which then acts on the point.
+        # The group element cay(x) acts on the point y.
         return stages.builder.act("Y", stages.builder.add(CayleyElement(), "g", x), y)

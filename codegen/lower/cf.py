@@ -1,9 +1,9 @@
 """Commutator-free methods for vector fields: products of exponentials without brackets.
 
-Let k_j be the value of the field at stage j, and h the step size. For each stage, a product of J exponentials
-is applied to the state y0 or to the point of an earlier stage. The same holds for the update. The product is
-exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), where the coefficients beta belong to the stage or to
-the update. The unknowns of the stage equations are the k_j.
+A step of size h starts at the state y0. Let k_j be the value of the field at stage j. To compute the point of
+a stage, exponentials are applied to y0 or to the point of an earlier stage. The exponents are linear
+combinations h sum_j beta_j k_j, each with its own coefficients beta_j. The new state is computed in the same
+way. If the method is implicit, the stage equations are solved for the k_j.
 """
 
 from __future__ import annotations
@@ -41,10 +41,9 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return a text that says which values a low-storage scheme stores in its registers.
+        """Return the values that a low-storage scheme stores, as a line for the header of the emitted file.
 
-        The text becomes a line in the header of the generated file. If the program of the method is not a
-        low-storage scheme, the result is ''.
+        If the method has no low-storage scheme, the result is ''.
         """
         registers = _registers(method)
         if registers is None:
@@ -66,13 +65,12 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a scheme with two registers, and the row (D_1, ..., D_s) of the embedded method.
+    """Return a low-storage scheme for ``method``, and the coefficients D_i of its embedded method.
 
-    The scheme computes the step of ``method``. The row describes the embedded method: exp(h sum_i D_i k_i)
-    maps the result of ``method`` to the result of the embedded method. Here k_i is the value of the field at
-    stage i. The row is None if there is no embedded method.
+    Let k_i be the value of the field at stage i. The embedded method applies exp(h sum_i D_i k_i) to the
+    result of ``method``. If there is no embedded method, None replaces the coefficients.
 
-    The whole result is None if the scheme does not exist. It is also None if the embedded method has no row.
+    If ``method`` has no low-storage scheme or the D_i do not exist, the function returns None.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -82,7 +80,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
         exponent = second_exponent(method.commutator_free(), second, method.ring)
         if exponent is None:
             return None
-    # ``holds`` is True if the scheme and the tableau define the same step. Other schemes are not used.
+    # If ``holds`` is True, the scheme and the tableau define the same step.
     rewriting = low_storage(method.tableau)
     if rewriting is None or not rewriting.holds or rewriting.scheme is None:
         return None
@@ -95,8 +93,10 @@ def two_registers(
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
     Here k_i is the value of the field at Y_i. A step stores only the state and one element K of the Lie
-    algebra. If ``estimate`` is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored.
-    The update of the embedded method is exp(h E_s) applied to the update of the method.
+    algebra.
+
+    If there is an embedded method, ``estimate`` contains its coefficients (D_1, ..., D_s). A step then also
+    stores the sum E of the D_i k_i. The embedded method applies exp(h E) to the new state.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -108,9 +108,9 @@ def two_registers(
     sums: list[Var] = []
 
     def advance(i: int) -> None:
-        """Append the operations that compute the registers and the next state from k_i."""
+        """Append the operations that compute K, E and the next state from the value k of stage i."""
         terms = [(one, k[i])]
-        # At the first stage there is no earlier value of K, so K_1 = k_1.
+        # At the first stage, K_1 = k_1.
         if register:
             terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
@@ -120,14 +120,15 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # The time of a stage, in units of h, is the sum of the coefficients in all exponents of earlier stages.
+    # For each stage, ``times`` contains c with the stage time t + c h. The number c is the sum of the
+    # coefficients of all earlier exponents.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
     def images() -> list[Var]:
         result = []
         for i in range(scheme.s):
-            # Stage i starts from the state after the exponential of stage i - 1.
+            # Stage i begins at the state that stage i - 1 has computed.
             if i:
                 advance(i - 1)
             result.append(stages.f(f"f{i + 1}", state[i], times[i] if i else None))
@@ -146,7 +147,7 @@ def two_registers(
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
     """Return the program of a method whose stages and update are products of exponentials.
 
-    ``lower`` is the update of the embedded method, if there is one.
+    ``lower`` contains the coefficients of the embedded update, or None if there is no embedded method.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -154,42 +155,38 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage may begin at the point of an earlier stage. The exponentials of the earlier stage are then
-        # not computed again.
+        # A stage begins at y or at the point of an earlier stage.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage have the same name, to which Builder appends numbers.
+            # Builder appends numbers to the name, because a variable is assigned only once.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # Each row of coefficients gives one exponential. The exponential of the first row acts first, so
-            # it is the rightmost factor of the product.
+            # Each row of coefficients gives one exponential. The exponential of the first row acts first.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:
-        # If a stage begins at the point of another stage, the other stage comes first in the list. Thus its
-        # point is known.
+        # A stage can only begin at the point of an earlier stage. This point is already in ``points``.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of a stage, in units of h, is the sum of the coefficients in its exponents. If the
-            # stage begins at the point of an earlier stage, the time of the earlier stage is added.
+            # The time of stage i is t + c h with c = times[i]. Here c is the sum of the coefficients in the
+            # exponents. If the stage begins at the point of an earlier stage, the c of that stage is added.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The points of the stages are stored, because the update may begin at one of them.
+        # The update can begin at the point of a stage, so it needs the points.
         stage_points[:] = points
         return result
 
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution needs exponentials of its own, because it is not a linear combination of stage
-        # values.
+        # The embedded method has its own exponentials.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 
-    # The initial guess for all k_i is f(y0). Its error is O(h), and it costs one evaluation for all stages.
+    # The initial guess for every k_i is f(y0), with an error O(h).
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -11,6 +11,5 @@ from codegen.lower.magnus import MagnusLowering
 class CommutatorFreeMagnusLowering(MagnusLowering):
     """Commutator-free Magnus methods: Magnus methods without brackets."""
 
-    # A commutator-free Magnus method is a Magnus method whose tableau has no brackets. The inherited lowering
-    # can therefore be used.
+    # The lowering of Magnus methods is inherited. Here the tableaux contain no brackets.
     family = "cf_magnus"

@@ -24,10 +24,9 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # The embedded method has the stages of ``method``, so the program needs only its update.
+        # The embedded method has the same stages as ``method``. Only the update is different.
         lower = None if embedded is None else _exponentials(embedded).update
-        # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
-        # method in which each exponent has one term.
+        # A Crouch-Grossman method is a commutator-free method in which each exponent has one term.
         return products(problem, method, _exponentials(method), lower)
 
 

@@ -16,21 +16,20 @@ HALF = Number.rational(1, 2)
 class CompositionLowering(FlowLowering):
     """Symmetric compositions of Strang's step.
 
-    The family also contains the compositions of a first-order step Phi with its adjoint Phi*.
+    Other methods of the family are compositions of a first-order step Phi and its adjoint Phi*.
     """
 
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows of a step, and the label of the family whose order conditions
-        apply."""
+        """Return the sequence of flows of a step, and the label of the family with the order conditions."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # Only a tableau of the class Composition has step lengths gamma.
+        # The family cannot use tableaux of other classes.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # A step of Strang's method of length gamma h applies first Phi*_{gamma/2} and then Phi_{gamma/2}.
-        # This is a composition with the coefficients beta = alpha = gamma/2.
+        # A Strang step of length gamma h consists of a step of Phi* and a step of Phi, each of length
+        # gamma h/2. Phi* acts before Phi.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

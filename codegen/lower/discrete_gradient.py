@@ -1,22 +1,28 @@
 """Discrete gradient methods on groups, which preserve the energy exactly.
 
-The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*. A
-step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega, the contraction of omega with D. Here
-omega is the bivector of the scene (:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a
-discrete differential of the energy H with values in the dual of the Lie algebra: <D, eta> = H(x1) - H(x0)
-with eta = h xi. Let gamma(x) be the differential of H along the group at x: <gamma(x), eta> is the derivative
-of H(exp(s eta).x) with respect to s at s = 0. The tableau is read as a quadrature rule with nodes c_i and
-weights b_i for the mean of gamma over the step:
+The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*.
+A step of size h from x0 to x1 is x1 = exp(eta).x0 with eta = h xi. The unknown is the element xi of the Lie
+algebra.
 
-    g = sum_i b_i gamma(exp(c_i eta).x0),
+Let H be the energy. Its differential gamma(x) at a point x is an element of the dual of the Lie algebra. For
+each element e of the Lie algebra, <gamma(x), e> is the derivative of H(exp(s e).x) with respect to s at
+s = 0. The mean of gamma over the step is approximated by quadrature. The nodes c_i and the weights b_i are
+those of the tableau:
+
+    g = sum_i b_i gamma(exp(c_i eta).x0).
+
+A discrete differential is an element D of the dual with <D, eta> = H(x1) - H(x0). The method uses
+
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2, D is the discrete differential (2.31) of the thesis with gamma at the midpoint. With Gauss
-nodes, g approximates the mean value of section 2.6. The second term of D corrects the error of the
-quadrature. Since omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if
-sum b_i c_i = 1/2, otherwise one. The unknown is xi.
+The second term corrects the error of the quadrature. With the single node 1/2, D is equation (2.31) of the
+thesis with gamma at the midpoint. With Gauss nodes, g approximates the mean of gamma that section 2.6 uses.
 
-On a lattice, H is the total energy, and <g, eta> and |eta|^2 are sums over all sites
+The step solves the equation xi = omega(D, .). Here omega is the bivector of the scene at the midpoint
+exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0. Therefore H(x1) = H(x0) for
+every tableau. The order is two if sum_i b_i c_i = 1/2, otherwise one.
+
+On a lattice, H is the total energy. The pairing <g, eta> and |eta|^2 are sums over all sites
 (:mod:`codegen.kernel.site_sums`).
 """
 
@@ -52,8 +58,8 @@ class DiscreteGradient(FieldLowering):
         expected = f"a Hamiltonian that does not depend on time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
             expected = 'the arguments "energy" and "bonds" in a lattice scene that does not depend on time'
-        # If H depends on time, the exact solution does not preserve H, so this method would not converge to
-        # the exact solution.
+        # If H depends on time, the exact solution does not preserve H. A method that preserves H would not
+        # converge to this solution.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -61,12 +67,12 @@ class DiscreteGradient(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group is
-        zero at a point where the field is not zero. It is also raised for a lattice whose forces at an open
-        boundary are not derivatives of its energy.
+        :class:`codegen.errors.MethodError` is raised if the differential of the energy is zero at a point
+        where the field is not zero. It is also raised if a force at the open boundary of a lattice is not a
+        derivative of the energy.
         """
-        # A single site does not preserve its energy, because it exchanges energy with its neighbours.
-        # Therefore the test for a lattice uses all sites of a small lattice.
+        # The energy of a single site changes, because neighbours exchange energy. For a lattice, _agrees
+        # therefore uses all sites of a small lattice.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
@@ -94,52 +100,49 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # ``moved`` returns exp(x).y, where x is the product of ``part``, the step size h and ``velocity``. All
-    # evaluations are at y or at points of this form.
+    # ``moved`` returns the point exp(part h velocity).y.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
-            # The quadrature approximates the mean of gamma over the step, not its integral, so there is no
-            # factor h.
+            # The quadrature gives the mean of gamma over the step, so the weights have no factor h.
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
         # The bivector is evaluated at the midpoint. If it were evaluated at y, the method would have order 1.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
-        # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
+        # H(x1) depends on the unknown xi, so the energies are part of the equation for xi.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # The formula of D in the docstring of this module contains a quotient that is 0/0 at eta = 0. For
-        # eta = 0 the operation Secant returns D = g.
+        # If eta = 0, the formula for D in the module docstring contains 0/0. Secant then returns D = g.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The block solves the equation xi = f, where f is computed from xi. If xi has an error e, the error
-        # of f is O(h e), so the update uses f in place of xi. Small errors matter, because errors of the
-        # energy add up over many steps.
+        # The solver computes xi from the equation xi = f(xi). If xi has the error e, f(xi) has the smaller
+        # error O(h e). The update uses f(xi), because errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
 def _agrees(scene: Problem) -> bool:
-    """Return True if the bivector maps the differential of the energy to the field at all sample points."""
-    # All sample points are on the orbit. At other points, the bivector need not map the differential to the
-    # field.
+    """Return True if omega(gamma, .) = f at sample points, for the bivector omega and the field f.
+
+    Here gamma is the differential of the energy.
+    """
+    # The equation is required only on the orbit, so all sample points are on the orbit.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # ``gamma`` is the differential of the energy. If the scene does not define Hamilton's equations on
-        # T*G, the formula in ``bivector`` has the denominator |gamma|^2. Therefore f must be zero at all
-        # points where gamma is zero.
+        # Except for Hamilton's equations on T*G, ``bivector`` divides by |gamma|^2. If gamma is zero, the
+        # quotient is replaced by zero. The test then fails if f is not zero.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True
