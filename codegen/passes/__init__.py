@@ -1,10 +1,10 @@
-"""Passes over the program of a step. A pass is a pure function that returns a simpler program.
+"""Passes over the program of a step. A pass is a pure function from a program to a simpler program.
 
-A pass is called exact if the results of the program do not change in exact arithmetic.
+A pass is exact if, in exact arithmetic, both programs have the same results.
 
-``optimise`` runs all passes in a fixed order. After every pass it checks types and single assignment. It also
-compares the results of the new program with the results of the original program at sample points of the
-scene.
+The function :func:`optimise` runs all passes in a fixed order. After every pass it checks the new program:
+types must match, and each variable is assigned once. It also runs the new and the original program from two
+states of the scene and compares the results.
 """
 
 from __future__ import annotations
@@ -62,13 +62,12 @@ class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
     ``composed`` may be given if the step repeats a shorter method in several substeps
-    (:mod:`codegen.lower.substeps`). The statements of ``composed`` compute one substep. The list
-    ``composed.substeps`` contains all substeps of the step, so ``composed`` computes the whole step when its
-    statements are executed once for each substep. The optimiser first tests that this step has the same
-    results as ``program``. All further passes rewrite the statements of ``composed``.
+    (:mod:`codegen.lower.substeps`). The statements of ``composed`` compute one substep. Its list ``substeps``
+    contains all substeps of the step. The optimiser tests that ``composed`` has the same results as
+    ``program``. Then the passes rewrite the statements of ``composed``.
 
-    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. Such an error is a fault of
-    the compiler.
+    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. This error means that the
+    compiler has a bug.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -78,8 +77,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # All further passes rewrite the statements of one substep. From here on, the results of each new
-            # program are compared with the results of one substep.
+            # The passes rewrite the statements of one substep, so the reference is also one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -95,7 +93,8 @@ class Optimiser:
         equations are smaller, but the program may need more operations.
         """
         plain, reports = self.program, list(self.reports)
-        # The interpreter converts the momentum to the body frame and back, so results remain comparable.
+        # The interpreter returns the momentum in the space frame for both kinds of programs. Therefore the
+        # results in the two frames can be compared.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
@@ -118,7 +117,7 @@ class Optimiser:
 
 
 def _part(program: Program) -> Program:
-    """Return ``program`` without its list of substeps. A step of the result is one substep."""
+    """Return the program of one substep of ``program``."""
     return replace(program, substeps=())
 
 
@@ -137,11 +136,12 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # After flows have been joined, the stage times of the replaced flows may be unused.
+        # The pass for joined flows removes flows. This pass removes their stage times.
         Pass("unused values", UNUSED, dead.run),
-        # This pass must follow the pass for zeros. Otherwise terms that cancel would count as dependencies.
+        # The pass for zeros removes terms that cancel. Without it, this pass would find dependencies in them.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass counts how many operations read a linear map. Unused operations must not count.
+        # The next pass tests whether only one operation reads a linear map. Therefore this pass first removes
+        # operations whose results are not used.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
         # treats the case that several sums read L(x) and L(y).
@@ -173,8 +173,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps, which may cancel other maps.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass removes the force of a stage from the unknowns if the force does not depend on the unknown
-        # momentum of the stage. The Legendre transform removes this dependence, so it must come first.
+        # In general the force of a stage depends on the unknown momentum of the stage. The Legendre transform
+        # removes this dependence. Only then can this pass remove the force from the unknowns.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -182,12 +182,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # If another operation reads exp(x), the next pass may keep the adjoint operation of exp(x). Therefore
-        # this pass first removes a product that reads exp(x).
+        # The next pass replaces more adjoint operations of exp(x) if no other operation reads exp(x).
+        # Therefore this pass first replaces products that read exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass adds residuals. Each residual compares two formulas for a momentum. The pass follows the
-        # pass for functions of ad, so that it can choose the momentum that needs the fewest operations.
+        # This pass adds residuals. Each residual is the difference of two formulas for the same momentum. To
+        # choose this momentum, the pass looks for functions of ad, which the previous pass creates.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),

@@ -2,11 +2,12 @@
 
 The components are solved one after the other.
 
-The pass is exact. An edge of the graph leads from each assignment to every assignment that reads one of its
-values. The image of an unknown is the right-hand side of its fixed-point equation. If an assignment reads an
-unknown, an edge leads to it from the assignment that computes the image. A component without a cycle becomes
-assignments outside blocks. A component with a cycle becomes a smaller block. Explicit methods therefore need
-no solver.
+The pass is exact. The nodes of the graph are the assignments of the block. If assignment a computes a value
+that assignment b reads, an edge leads from a to b. The image of an unknown is the right-hand side of its
+fixed-point equation. If a computes the image of an unknown that b reads, an edge also leads from a to b.
+
+A component without a cycle is moved out of the block. A component with a cycle becomes a smaller block. The
+graph of an explicit method has no cycles, so an explicit method needs no solver.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ def run(program: Program) -> Program:
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements that replace a block, in order of execution.
 
-    The function adds each unknown of the block to the dictionary ``names``, with the variable that replaces
-    the unknown in later statements.
+    Later statements read another variable in place of an unknown of the block. The function adds this
+    variable to the dictionary ``names``; the key is the unknown.
     """
     # The import of networkx takes time, and only programs with blocks need it.
     import networkx
@@ -49,13 +50,12 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # An assignment that reads an unknown depends on the image of the unknown.
+            # If the argument is an unknown, the edge begins at the assignment that computes its image.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # In a component, the assignments keep their order. An assignment may read an unknown whose image is
-    # computed later. Then the unknown has its value from the previous sweep.
+    # The assignments of a component keep their order.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # The order closest to the old program is chosen, so that emitted text changes little.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
@@ -63,20 +63,19 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # A component is solved for the unknowns that it reads and whose images it computes.
+        # An unknown belongs to the new block if the component computes its image and also reads the unknown.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # A component without unknowns has no cycle, and its assignments need no block.
+        # Every cycle contains an unknown. A component without unknowns has no cycle and needs no block.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # The block that is split has no residuals, because the pass :mod:`codegen.passes.legendre` adds
-        # residuals after the last split.
+        # At this point no block has residuals. The pass :mod:`codegen.passes.legendre` adds them later.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     # Later statements read the image, which equals the unknown at the solution.
     names.update(image)
@@ -84,11 +83,10 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return, for each unknown, a value that is not itself an unknown of the block.
+    """Return, for each unknown, a variable that equals it at the solution and is not an unknown of the block.
 
-    The value is the image of the unknown, that is, the right-hand side of its equation. If the image is
-    another unknown, the image of this other unknown is used, and so on. If this search returns to an earlier
-    unknown, the value is the start value.
+    This variable is the image of the unknown. If the image is another unknown, the image of that unknown is
+    used, and so on. If the search reaches the same unknown twice, the start value is used.
     """
     result = {}
     for unknown in image:
@@ -96,7 +94,8 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # A cycle, such as v = w and w = v, does not determine the value, so the start value is used.
+        # Equations such as v = w and w = v do not determine v. Every value solves them, so v keeps its start
+        # value.
         result[unknown] = start[unknown] if var in seen else var
     return result
 

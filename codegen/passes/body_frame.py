@@ -13,12 +13,12 @@ One operation is replaced: the evaluation of the derivatives of the Hamiltonian.
 the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame
 at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame` defines the
 velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force
-is Ad*_{E~^-1} N(Q, P). The equations of a block now read only those coordinates of q that W and N read.
+is Ad*_{E~^-1} N(Q, P). In the new program, the equations read only those coordinates of Q on which W and N
+depend.
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 
-A program is not changed if the scene has no body frame. It is also not changed if any other operation of the
-program does not commute with the transformation.
+A program is not changed if the scene has no body frame, or if the pass cannot rewrite one of its operations.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q, if none of their arguments is a position."""
+"""Operations that commute with the adjoint action of q. Their arguments must not be positions."""
 
 
 class NotFramed(Exception):
-    """Raised for an operation that this pass cannot rewrite. The program is then not changed."""
+    """Raised if this pass cannot rewrite an operation. The function ``run`` catches this exception."""
 
 
 def run(program: Program, scene: Problem) -> Program:
@@ -88,7 +88,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # For the position q at the beginning of the step, the factor E is the identity (None).
+        # The position at the start of the step is q itself, so its factor E is the identity (None).
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -96,12 +96,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # If a position Q = E q is an unknown of a block, no variable contains its factor E, and the pass
-            # is not applied.
+            # An unknown position Q = E q has no variable for the factor E, so the pass cannot rewrite it.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The initial values of the unknowns are computed before the block. Therefore their variables are
-            # replaced before the body is visited.
+            # The start values are computed before the block, so their new names are already known.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -128,8 +126,8 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # Only two operations may read a position Q: the evaluation of the field, and the product of two group
-        # elements. Other operations on Q are not equivariant.
+        # The pass can rewrite only two operations on a position: the evaluation of the field, and the product
+        # with a group element. For other operations it stops.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -143,8 +141,8 @@ class _Framing:
             # The product (E q)(E' q) of two positions does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
-            # Let L be the element ``left`` and let R q be the position ``args[1]``. Their product is the
-            # position (L R) q, and its factor E is L R.
+            # The product of the element L = ``left`` and the position R q is the position E q with E = L R.
+            # Here R is the element ``right``.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.

@@ -1,7 +1,7 @@
 """Remove dead code: values on which no output of the program depends.
 
-The pass is exact. An unknown that nothing reads is removed together with its equation. If nothing reads any
-unknown of a block, the block is dissolved: the assignments that are still needed are moved out of the block.
+The pass is exact. A value is live if an output depends on it. An unknown that is not live is removed together
+with its equation. If no unknown of a block is live, the live assignments of the block are moved out of it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
     """Return the program without dead assignments, unknowns and blocks."""
     live: set[Var] = {var for _, var in program.outputs}
     kept: list[Statement] = []
-    # The loop runs backwards, so that all readers of a value are visited before its definition.
+    # The loop runs backwards: when it reaches an assignment, it knows which later statements read the result.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
             # If one result of an operation is live, all its results are kept, because they are computed
@@ -31,14 +31,14 @@ def run(program: Program) -> Program:
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Return the statements of a block that are live, and add the values that they read to ``live``."""
+    """Return the live part of a block as statements, and add the values that it reads to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
-    # A block has one residual for each unknown, or none, so zip is not strict.
+    # A block may have no residuals, so zip is not strict.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # The image of a live unknown is live, and so is every value from which the image is computed.
+    # If an unknown is live, its image is live. If a value is live, the arguments of its assignment are live.
     while wanted:
         var = wanted.pop()
         # The equations of a block may depend on each other in cycles, so a value may be reached twice.
@@ -59,6 +59,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # The start values of live unknowns are computed before the block.
+    # The block reads the start values, so the assignments that compute them must be kept.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

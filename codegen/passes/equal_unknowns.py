@@ -14,7 +14,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which all unknowns of a block have different images."""
+    """Return the program after unknowns of a block with the same image have been merged."""
     same: dict[Var, Var] = {}
 
     def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
@@ -24,11 +24,12 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # ``same`` maps each removed unknown to the unknown that replaces it. Later blocks and outputs may
-            # read removed unknowns, so ``same`` is kept for the whole program.
+            # The dictionary ``same`` maps each removed unknown to the unknown that replaces it. Later
+            # statements may also read the removed unknown.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # The body reads the unknowns that are kept, so that value numbering can merge equal stages.
+            # Removed unknowns are replaced in the body. The body may then contain equal assignments, which
+            # value numbering merges.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -50,7 +51,7 @@ def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # An image that is itself an unknown is left to the pass :mod:`codegen.passes.blocks`.
+        # If the image is an unknown, the pass :mod:`codegen.passes.blocks` replaces the unknown.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -1,6 +1,6 @@
 """Numerical test that two programs have the same results.
 
-An interpreter executes both programs for steps of different sizes from two states of the scene.
+An interpreter executes one step of both programs from each of two states of the scene.
 """
 
 from __future__ import annotations
@@ -22,29 +22,29 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try. The largest is first, because a wrong rewriting has the largest effect in a long step.
 
-If the first step would exceed the bound :data:`REACH`, all step sizes are divided by the same power of two.
+If the largest step exceeds the bound :data:`REACH`, all step sizes are divided by the same power of two.
 """
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Step sizes 2^-k for k in TINY_STEPS, which are used with DIGITS decimal digits.
+"""Exponents k of the tiny step sizes 2^-k, and the number of decimal digits for these steps.
 
-These steps are tried if no step in double precision can be compared. The last of these steps is short enough
-even for a scene with a coefficient of 1e300.
+If no step in double precision can be compared, the tiny steps are tried. They are divided by the same power
+of two as :data:`STEPS`. The smallest is short enough even for a scene with a coefficient of 1e300.
 """
 
 REACH = 0.5
-"""An upper bound of the step size h times the largest component of the field.
+"""Upper bound for the product of the step size and the largest component of the field.
 
 Steps above this bound would amplify rounding errors.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""The errors that interpreting a program may raise. A root of a negative number raises ValueError."""
+"""The errors that the interpreter may raise. For example, the root of a negative number is a ValueError."""
 
 SWEEPS = 24
-"""The largest number of sweeps (fixed-point iterations) over a block of the reference program in doubles.
+"""Limit for the sweeps (fixed-point iterations) of a block, for the reference program in doubles.
 
-A step that needs more sweeps is too long for an accurate comparison. Then a shorter step is tried. If each
+If a step needs more sweeps, it is too long for an accurate comparison, and a shorter step is tried. If each
 sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
@@ -55,20 +55,19 @@ NOT_A_NUMBER = "differs by nan"
 """If a difference is not a number (NaN), its description ends with these words."""
 
 APART = 16
-"""If the results of a step cannot be compared, the next step is shorter by at least this factor."""
+"""If the results of a step cannot be compared, the step size is divided by this factor or a larger one."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared."""
 
 CLOSE = 2.0**-200
-"""Results with DIGITS digits count as equal up to this relative difference."""
+"""Results of a tiny step agree if their difference is at most this fraction of the change of the state."""
 
 AGREE = 2.0**-36
-"""Results in doubles count as equal up to this relative difference.
+"""Two results agree if their relative difference is at most this number. Tiny steps use :data:`CLOSE`.
 
-This difference is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the
-gallery. A wrong coefficient is found even if its error is only 2^-28
-(``tests/codegen/passes/test_equivalence.py``).
+The number is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the gallery.
+A test in ``tests/codegen/passes/test_equivalence.py`` finds a wrong coefficient with an error of 2^-28.
 """
 
 
@@ -78,8 +77,7 @@ class _Step:
 
     - ``moved`` is True if the step begins near the initial state, and False if it begins at the initial
       state.
-    - ``tiny`` is True for a step of :data:`TINY_STEPS`. Its results are compared relative to the change of
-      the state.
+    - ``tiny`` is True if the step size is one of :data:`TINY_STEPS`.
     """
 
     domain: Domain
@@ -104,9 +102,10 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return a pair: whether the iteration has converged, and the size of its last change.
+        """Return the pair (converged, change) for a sweep from ``old`` to ``new``.
 
-        NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
+        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep. NotConverged
+        is raised if the change is at least 10^digits.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -117,7 +116,7 @@ class _Bounded(PreciseDomain):
 class _Point:
     """The results of steps that begin at the same state, sorted by decreasing step size.
 
-    Only the first result is computed at once. The others are computed when they are needed.
+    The constructor computes the first result. The method ``results`` computes the others when needed.
     """
 
     def __init__(self, more: Iterator[_Step]) -> None:
@@ -133,12 +132,13 @@ class _Point:
 
 
 class Reference:
-    """The reference for comparisons: the results of a program after one step from points of a scene.
+    """The results of the reference program after one step. Other programs are compared with these results.
 
     The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
-    symmetric position). The other point is near the initial state and has no symmetry. From each point, the
-    longest step with three properties is used: it does not exceed :data:`REACH`, its results are finite,
-    and the iterations for its implicit equations converge.
+    symmetric position). The other point is near the initial state and has no symmetry.
+
+    From each point, the longest possible step is used. The step size is limited by :data:`REACH`. The
+    results must be finite, and the iterations for the implicit equations must converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -158,11 +158,10 @@ class Reference:
         state = _state(self.scene, FloatDomain(0.0), moved)
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # Programs are compared by steps from two states. If the field is not finite at this state, only steps
-        # from the other state are compared.
+        # If the field is not finite at this state, no step can begin here.
         if not math.isfinite(speed):
             return
-        # After a division of STEPS[0] by 2**excess, its product with ``speed`` is at most REACH.
+        # The largest step is STEPS[0] / 2**excess. Its product with ``speed`` is at most REACH.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -177,9 +176,9 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return an arithmetic with ``digits`` decimal digits for step size h, and the state at the start.
+        """Return a domain with ``digits`` decimal digits and step size h, and the state at the start.
 
-        This state is near the initial state if ``moved`` is True. Otherwise it is the initial state.
+        If ``moved`` is True, this state is near the initial state. Otherwise it is the initial state.
         """
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
@@ -189,21 +188,21 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step of a program, or None if the step cannot be computed."""
-        # The solutions of the implicit equations are stored. When another program is compared with this one,
-        # its iterations start from these solutions.
+        # The dictionary receives the solutions of the implicit equations. The iterations of other programs
+        # start from these solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Very large results are excluded. Another program with the same results may add in another order, and
-        # its partial sums may overflow.
+        # Very large results are excluded. A rewritten program may add the terms in another order, and its
+        # partial sums may then overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a step of size 2^-p, where p is ``power``, changes the state only slightly.
+        """Return True if a tiny step changes the state only slightly. ``power`` is its exponent p.
 
         Every number x of the state may change by at most 2^(-p/2) max(1, |x|).
         """
@@ -229,8 +228,7 @@ class Reference:
     def differs(self, program: Program) -> str:
         """Return a description of the first difference between the results of ``program`` and the reference.
 
-        If there is no difference, the result is ''. SceneError is raised if the programs cannot be compared
-        at any point.
+        If there is no difference, the result is ''. If no point permits a comparison, SceneError is raised.
         """
         accounts = [self._in_some_step(program, point) for point in self.points]
         if all(account is None for account in accounts):
@@ -242,7 +240,7 @@ class Reference:
 
         - If the programs agree, the result is ''.
         - If ``program`` fails in all steps, the result describes its last failure.
-        - If the reference has no suitable step, the result is None.
+        - If no step permits a comparison, the result is None.
         """
         failure = None
         for step in point.results():
@@ -265,7 +263,7 @@ class Reference:
         return failure
 
     def _is_solved(self, step: _Step) -> bool:
-        """Return True if the iterations of the reference program converge in arithmetic with many digits."""
+        """Return True if the reference program can compute the step with many digits."""
         if step.tiny:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
@@ -292,10 +290,10 @@ class Reference:
         return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Repeat the step of both programs with many digits, and return the difference of the results.
+        """Repeat the step of both programs with many digits, and describe the difference of the results.
 
-        If there is no difference, return ''. If the step cannot be repeated, return ``account``, which
-        describes the difference in doubles.
+        ``account`` describes the difference in doubles. It is returned if the repeated step fails. If the
+        results agree, '' is returned.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -312,12 +310,13 @@ class Reference:
             if name not in step.after:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))
-            # Components may vanish by symmetry, so the comparison is absolute for small values.
+            # A component may be zero by symmetry. Then only rounding errors remain, and a relative comparison
+            # makes no sense. Therefore ``scale`` is at least 1.
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # The gap is compared with the change of the state. If the change is zero, the lower bound of
-                # ``scale`` allows for rounding errors.
+                # ``scale`` is the change of the state. If the state does not change, ``scale`` must still be
+                # larger than rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -332,7 +331,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
-        # A field that overflows or divides by zero counts as not finite.
+        # If the evaluation overflows or divides by zero, the result is infinity.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
@@ -352,8 +351,8 @@ def _no_step(scene: Problem) -> SceneError:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True.
 
-    In the nearby state, the time is larger by 1/8, and a fixed covector is added to momenta. All other parts
-    of the state are moved by a fixed group element.
+    In the nearby state, the time is larger by 1/8, and a fixed covector is added to momenta. A fixed group
+    element acts on all other parts of the state.
     """
     start = scene.initial(domain)
     # The directions are sines of integers: numbers without symmetries, and the same in every run.
@@ -364,8 +363,7 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # A covector is added to momenta. Other parts of the state are moved by a group element, so that they
-        # stay on the manifold.
+        # The group acts on the other parts of the state, because the new values must lie on the manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:
