@@ -87,7 +87,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Remove the lowering of a family that :func:`register` added.
+    """Remove the lowering that :func:`register` added for a family.
 
     MethodError is raised for a built-in family.
     """
@@ -129,7 +129,7 @@ def lowering(family: str) -> Lowering:
 def families_for(scene: Problem) -> tuple[str, ...]:
     """Return the names of the families that accept a scene.
 
-    They are sorted by decreasing :attr:`Lowering.preference`.
+    The names are sorted by decreasing :attr:`Lowering.preference`.
     """
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
@@ -138,7 +138,7 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return the lowerings of all families. The keys are the names of the families."""
-    # The built-in modules import this package, so they are imported only at the first call.
+    # The built-in modules import this package. Therefore the first call of this function imports them.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

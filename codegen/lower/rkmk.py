@@ -38,9 +38,8 @@ if TYPE_CHECKING:
 class MuntheKaas(FieldLowering):
     """Runge-Kutta-Munthe-Kaas methods.
 
-    The cut-off of a method is the number of brackets after which the series of dexp^{-1} is truncated. For a
-    method without a cut-off, a search finds the smallest number of brackets for which the method has the
-    order of its tableau.
+    If a method has the cut-off r, the series of dexp^{-1} ends with the term with r brackets. If a method has
+    no cut-off, a search finds the smallest number of brackets that gives the order of the tableau.
     """
 
     family = "rkmk"
@@ -50,8 +49,7 @@ class MuntheKaas(FieldLowering):
         """Return the program of a step."""
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
-        # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
-        # needed.
+        # Without a cut-off, a search finds the brackets that are needed for the order of the tableau.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
@@ -72,9 +70,9 @@ class MuntheKaas(FieldLowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family with the order conditions of the method.
 
-        For a method without a cut-off, the conditions are computed from the list of its brackets. If the
-        scene has a coordinate map other than exp, the result is the family ``rkmk`` without a cut-off,
-        because the inverse differential of the map is not truncated.
+        If the method has no cut-off, its order conditions depend on the brackets that a search has found. If
+        the scene has a coordinate map other than exp, the inverse differential of the map is exact. The
+        result is then the family ``rkmk`` without a cut-off.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -84,14 +82,13 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The conditions are computed from the bracket program from which the code is emitted.
+        # The emitted code and the order conditions use the same bracket program.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of a method.
 
-        If the method has no cut-off and the coordinate map is exp, the attribute ``failing`` of the result is
-        empty.
+        If the method has no cut-off and the coordinate map is exp, the result lists no failing conditions.
         """
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
@@ -100,7 +97,7 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # The order is cached, because computing it takes time and a report needs it many times.
+    # The computation of the order takes time, and a report needs the order many times.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
@@ -110,15 +107,18 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     """Return the program of an RKMK method whose series of dexp^{-1} has at most ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
-        # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... If the group is not abelian and
-        # the cut-off is zero, the order of the method is at most two.
+        # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... With the cut-off 0, only the term
+        # k remains. On a group that is not abelian, the order is then at most two.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)
 
 
 def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
-    """Return the program of the continuous extension, or None if the method has no explicit extension."""
+    """Return the program of the continuous extension.
+
+    The result is None if the tableau is implicit or has no continuous extension.
+    """
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
     # The entries on and above the diagonal of an explicit tableau are zero.
@@ -148,10 +148,10 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program of a step that uses the operation ``element`` as the coordinate map, such as exp.
+    """Return the program of a step with the coordinate map ``element``, for example exp.
 
-    The function ``inverse`` appends the inverse differential of this map. With an ``extension`` of the
-    tableau, the program computes the coefficients of the continuous extension in place of the new state.
+    The function ``inverse`` appends the inverse differential of this map. If ``extension`` is given, the
+    program computes the coefficients of the continuous extension and not the new state.
     """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
@@ -162,7 +162,7 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # The stages are those of a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra.
+            # This is a Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
@@ -181,12 +181,12 @@ def _program(
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution is computed from the same v_i with other weights, so it needs no more stages.
+        # The embedded solution combines the same v_i with other weights.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # Without an extension, the program returns the new state. With an extension, it returns an element of the
-    # Lie algebra for each power of theta.
+    # Without an extension, the program returns the new state. With an extension, the program returns one
+    # element of the Lie algebra for each power of theta.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

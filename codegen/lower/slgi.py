@@ -11,8 +11,8 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order is two at most. In the thesis the factor h is part of f. With one stage, a_11 = theta and b_1 = 1,
-the method is the theta-method:
+The order is at most two. In the thesis, f contains the factor h. The method with one stage, a_11 = theta and
+b_1 = 1 is the theta-method:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
@@ -40,11 +40,11 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The
-# vectors dexp*_{X_j} n_j are common to all stages, so all stages together need s + 1 evaluations of dexp*.
+# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. All M_i
+# together need s + 1 evaluations of dexp*: one for -Y and one for each X_j.
 #
-# With one stage, the formula of M has two terms that contain the force n. They are merged by the following
-# identity, where a = a_11, b = b_1 and x = h xi:
+# With one stage, the formula of M has two terms with the force n. The following identity merges these terms.
+# Here a = a_11, b = b_1 and x = h xi:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -56,7 +56,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def several() -> list[Var]:
-        """Append and return the momenta M_i for any number of stages."""
+        """Append the statements of the momenta M_i for any number of stages, and return the M_i."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
@@ -73,8 +73,8 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append and return the momentum M of a method with one stage."""
-        # The two terms with the force n are merged by the identity in the comment before _program.
+        """Append the statements of the momentum M of a method with one stage, and return M."""
+        # The identity in the comment before ``_program`` merges the two terms with the force n.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

@@ -1,6 +1,7 @@
 """Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
-If a tableau has as many parts as the scene, the durations of the flows are h times the coefficients.
+If the tableau and the scene have the same number of parts, a step applies one flow for each coefficient. The
+duration of this flow is h times the coefficient.
 
 A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
 composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
@@ -39,7 +40,7 @@ class SplittingLowering(FlowLowering):
     family = "splitting"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the flows with their durations, and the label of the family whose order conditions apply."""
+        """Return the flows with their durations, and the label of the family with the order conditions."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
@@ -68,11 +69,11 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the flows of a splitting, and the label of the family whose order conditions apply.
+    """Return the flows of a splitting, and the label of the family with the order conditions.
 
-    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise they
-    are matched by position, with one exception: in a Runge-Kutta-Nystroem splitting of a Hamiltonian, the
-    part V of the tableau is matched with the kick, that is, the flow that changes only the momentum.
+    If the parts of the tableau and of the scene have the same names, the parts are matched by name. Otherwise
+    the parts are matched by position. In a Runge-Kutta-Nystroem splitting of a Hamiltonian, however, the part
+    V of the tableau is matched with the kick. A kick is a flow that changes only the momentum.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -80,8 +81,8 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # ``rkn`` is the index of the part V in the tableau, and the flow of V is a kick. The kick becomes the
-        # first summand if ``rkn`` is 0. Otherwise it becomes the last summand.
+        # ``rkn`` is the index of the part V in the tableau. The sort moves the kick to this index. There are
+        # two parts, so the index is 0 or 1.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -90,8 +91,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # If [V, [V, [V, T]]] = 0, the order conditions of Runge-Kutta-Nystroem splittings are sufficient.
-        # There are fewer of them than for general splittings.
+        # Since [V, [V, [V, T]]] = 0, the order conditions of Runge-Kutta-Nystroem splittings are sufficient.
+        # General splittings have more order conditions.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -107,8 +108,8 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # Suppose that V depends on q alone, and T is quadratic in mu. Each bracket with V then lowers the degree
-    # in mu by one, so three brackets give zero.
+    # For example, the result is zero if V depends on q alone and T is quadratic in mu, because each bracket
+    # with V lowers the degree in mu by one.
     for _ in range(3):
         # The sign convention of the bracket does not matter, because the result is only compared with zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
@@ -116,7 +117,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
-    """Return True if ``parts`` have at most degree two in the momentum of a lattice site."""
+    """Return True if each part is a polynomial of degree two or less in the momentum of a lattice site."""
     # The degree is at most two if all third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
@@ -126,14 +127,15 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the coefficients of the composition of Phi and Phi* that is equal to a splitting in two parts.
+    """Return a splitting in two parts as a composition of Phi and Phi*.
 
-    The coefficients are pairs (beta_i, alpha_i).
+    The result contains pairs (beta_i, alpha_i): the coefficients of Phi* and Phi in the composition.
     """
-    # The splitting applies the flows A_{x1}, B_{x2}, A_{x3}, ... of the two parts in this order. Phi* applies
-    # first A and then B. Phi applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1},
-    # Phi*_{beta_2}, ... is the splitting if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so
-    # on. The first equation gives beta_1, the second gives alpha_1, the third gives beta_2, and so on.
+    # Let A be the part whose flow acts first, and B the other part. The splitting applies the flows A_{x1},
+    # B_{x2}, A_{x3}, ... in this order. Phi* applies first A and then B. Phi applies first B and then A. The
+    # composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the splitting if x1 = beta_1,
+    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. The first equation gives beta_1, the second
+    # gives alpha_1, the third gives beta_2, and so on.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
@@ -143,7 +145,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # A is the part whose flow acts first. The equations above contain only the durations of the flows.
+    # The equations above contain only the durations of the flows.
     durations = [x for _, x in joined]
     # The loop below requires an odd number of flows. If the number is even, a flow of duration zero is
     # appended.
@@ -151,8 +153,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # ``carried`` is beta_i. The equations inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}
-        # determine alpha_i and beta_{i+1}.
+        # ``carried`` is beta_i, ``inner`` is beta_i + alpha_i, and ``outer`` is alpha_i + beta_{i+1}.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha

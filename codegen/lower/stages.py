@@ -1,4 +1,4 @@
-"""Stages of a step: inputs, times, evaluations of the scene, and the equations of all stages."""
+"""The program of a step, built from the equations of its stages."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number. Rational coefficients become elements of the ring QQ."""
+        """Return a coefficient of the tableau as a :class:`Number`."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
-        """Return the coefficient h x, where h is the step size and x is a number."""
+        """Return the coefficient h x, where h is the step size."""
         return Coefficient(x if isinstance(x, Number) else self.number(x), 1)
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
@@ -51,19 +51,19 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the time t + c h as a tuple with one variable. If ``c`` is None, the time is t.
+        """Return a tuple with the time t + c h, or with t if ``c`` is None.
 
         If the scene does not depend on time, the tuple is empty.
         """
         if self.time is None:
             return ()
-        # At the time t, no new variable is created, so that all evaluations at t have the same argument.
+        # For c = 0, the variable t itself is returned. All evaluations at t then have the same argument.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
 
     def f(self, target: str, y: Var, c: Element | None) -> Var:
-        """Append the statement target = f(y, t + c h), and return its variable. f is the scene's field."""
+        """Append the statement target = f(y, t + c h), where f is the field, and return its variable."""
         time = self.at(c)
         return self.builder.field_at(target, y, *time)
 
@@ -76,18 +76,17 @@ class Stages:
     ) -> Program:
         """Return the verified program: the starts, one block with the equations, and the update.
 
-        The functions ``images``, ``starts`` and ``update`` append statements and return variables. The result
-        of ``update`` is a dictionary of the outputs. The key of a new state is the name of the old state.
+        The functions ``starts``, ``images`` and ``update`` append statements and return variables. The result
+        of ``update`` is a dictionary of the outputs. A new state has the name of the old state as its key.
         """
         # The functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # All stages are in one block, even if the tableau is explicit. A later pass finds stages that can be
-        # computed one after the other.
+        # One block contains all stages. If the stages can be computed one after the other, a later pass
+        # divides the block.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # The update reads values that the block computes at the solution, so the update is appended after
-        # the block.
+        # The update needs the solution of the equations, so its statements follow the block.
         outputs = update()
         # The time is the last input. Thus the state comes first in all programs.
         inputs = self.inputs + (() if self.time is None else (self.time,))

@@ -1,13 +1,13 @@
-"""Compositions: if a step consists of substeps of one method, only one substep is compiled.
+"""Compositions: methods whose step consists of substeps of one method. Only one substep is compiled.
 
 Suppose that the stages of a tableau form consecutive groups with two properties:
 
 - a_ij = b_j if stage j is in an earlier group than stage i,
 - a_ij = 0 if stage j is in a later group than stage i.
 
-Then the method is a composition: group k is a method with step size gamma_k h, where gamma_k is the sum of
-the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). If all groups have the same coefficients
-after division by gamma_k, one program is enough for all substeps.
+Let gamma_k be the sum of the b_j of group k. Then the method is a composition, and group k is a substep of
+length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). Divide the coefficients of each group by its
+gamma_k. If the results are the same for all groups, one program is enough for all substeps.
 
 Only implicit methods are split into substeps. The substeps of an explicit method have common subexpressions.
 A separate program for one substep would compute these subexpressions again in every substep.
@@ -29,11 +29,11 @@ from orderconds.tableau import Composition, RungeKutta
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the base method of a composition, and the substeps of its step.
 
-    The substeps are steps of the base method with different lengths. The result is None if the step is not
-    divided into substeps.
+    The substeps are steps of the base method with different lengths. The result is None if the tableau is not
+    a composition of implicit substeps, or if the step also computes an embedded solution.
 
-    The function does not check that the family of the method permits substeps. The caller checks this with
-    the attribute ``repeats_substeps`` of :class:`codegen.lower.Lowering`.
+    Some families cannot divide a step into substeps. The caller checks this with the attribute
+    ``repeats_substeps`` of :class:`codegen.lower.Lowering`.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -42,8 +42,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution is a combination of the stages of all substeps. A program for one substep does not
-    # store them. Therefore tableaux with an embedded method are not split.
+    # The embedded solution needs the stages of all substeps. A program for one substep does not store the
+    # stages of the other substeps.
     if method.adaptive:
         return None
     tableau = method.tableau
@@ -63,8 +63,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method of the whole tableau do not apply to the tableau of one
-    # substep.
+    # The proof, the file and the embedded method describe the whole tableau, not the tableau of one substep.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -72,39 +71,37 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
-    """Yield a substep of length x h for each x in ``fractions``. A substep also contains its start time."""
+    """Yield one substep of length x h for each x in ``fractions``, with its start time."""
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # The sum of the earlier step lengths is exact, so the start time of each substep is rounded once.
+        # ``before`` is a Number, so it is rounded only when the code is printed.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into as many groups as possible, such that all groups have the same tableau.
+    """Return the common tableau of the substeps, and the number gamma_k for each substep k.
 
-    Return the common tableau of the groups, and for each group k the number gamma_k: the group is a substep
-    of length gamma_k h. The result is None if no division into two or more groups exists, or if the common
-    tableau is explicit.
+    Substep k has the length gamma_k h. The function finds the largest number of substeps with a common
+    tableau. The result is None if this number is one, or if the common tableau is explicit.
     """
-    # A coefficient may be given only by a ball, that is, by an interval that contains it. The coefficients
-    # are converted to the class Number, which can compare coefficients of this kind, too.
+    # Coefficients may be balls, that is, enclosing intervals. Objects of the class Number can be compared,
+    # even if they are balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k such that the stages k, k + 1, ... form a step that starts from the result of the
-    # earlier stages. The stages between two neighbouring cuts form a section. Each group of stages consists
-    # of ``wide`` neighbouring sections.
+    # If k is a cut, the stages k, k + 1, ... are a step that starts from the result of the earlier stages. A
+    # section consists of the stages between two neighbouring cuts. A group consists of ``wide`` neighbouring
+    # sections.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small values of ``wide`` are tried first, because small groups of stages give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # ``wide`` divides the number of sections, so the last group of stages ends at the last cut.
+        # The number of sections is a multiple of ``wide``, so the last group ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j. Therefore the length gamma_k h of substep
         # k is h times the sum of the weights of its stages.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # If the weights of a group of stages add up to zero, the group does not advance the time. Such a
-        # group is no substep.
+        # If the weights of a group add up to zero, the group does not advance the time, so it is no substep.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
@@ -121,11 +118,10 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages k, k + 1, ... form a step from the result of the earlier stages."""
+    """Return True if the stages k, k + 1, ... are a step that starts where the earlier stages end."""
     s = len(b)
-    # These are the two conditions of Lemma 3.5.4 of Bogfjellmo and Marthinsen. First, a_ij = b_j for i >= k
-    # and j < k: stage i starts from the result of the stages before k. Second, a_ij = 0 for i < k and j >= k:
-    # stage i does not depend on stage j.
+    # Lemma 3.5.4 of Bogfjellmo and Marthinsen has two conditions. If i >= k, stage i starts from the result
+    # of the stages j < k, so a_ij = b_j. If i < k, stage i does not depend on the stages j >= k, so a_ij = 0.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
@@ -146,8 +142,7 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # A Number stores every rational value as an element of QQ, the ring of rational numbers. A tableau needs
-    # elements of its own ring, so rational values are converted.
+    # A Number stores a rational value as an element of the ring QQ. A tableau needs elements of its own ring.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

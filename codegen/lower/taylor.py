@@ -41,15 +41,15 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        This is the case if each step ends with a projection onto the manifold. No projection is needed if the
-        manifold is an open subset of R^n.
+        The states are on the manifold if it is an open subset of R^n. Otherwise the projection at the end of
+        each step must map points near the manifold onto the manifold.
         """
         return reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection to a scene with run-time inputs or without formulas in coordinates.
+        """Return an objection if the scene has run-time inputs, or if it has no formulas in coordinates.
 
-        For all other scenes return None.
+        For all other scenes, the result is None.
         """
         if not scene.inputs:
             return without_formulas(scene)
@@ -81,7 +81,7 @@ class Taylor(Lowering):
         return verify(Program(method.label, (y, *time), body, (("y", end),)))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False, because a step of Taylor's method is in general not symplectic."""
+        """Return False, because Taylor's method is in general not symplectic."""
         return False
 
     def degree(self, method: Method) -> int:
