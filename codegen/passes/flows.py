@@ -1,7 +1,8 @@
-"""Join two exact flows of the same part of the Hamiltonian, if they commute with all flows between them.
+"""Join exact flows of the same part of the Hamiltonian.
 
-The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
-with 40 digits at sample points of the scene.
+The pass is exact. Two flows of one part are joined if all flows between the two commute with this part. Two
+flows commute if both orders of applying them give the same state. The pass tests this with 40 digits at
+sample points of the scene.
 
 For example, the rotation of a symmetric top about its own axis commutes with the flow of gravity. A rotation
 before the flow of gravity and a rotation after it are joined into one rotation.
@@ -43,7 +44,7 @@ def run(program: Program, scene: Problem) -> Program:
     # Testing whether flows commute takes time, so it is done only for programs that consist of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # A flow is joined to the last earlier flow of the same part, if it commutes with all flows in between.
+    # Two flows of one part are joined if all flows between the two commute with this part.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
@@ -53,12 +54,12 @@ def run(program: Program, scene: Problem) -> Program:
         # A flow whose duration is provably zero is the identity, so it is dropped.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # If no flows were joined, the old program is returned, and no comparison of programs is needed.
+    # If no flow was joined or dropped, the old program is returned.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index in ``kept`` of the last flow to which the flow ``letter`` can be joined, or None."""
+    """Return the index in ``kept`` of the flow that can be joined with ``letter``, or None if no flow can."""
     for at in reversed(range(len(kept))):
         # Flows of one part with different stage times are flows of different vector fields.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
@@ -70,7 +71,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
 
 
 def word(program: Program) -> list[Letter] | None:
-    """Return the flows of a program in order, or None for a program with other operations."""
+    """Return the flows of a program in order. If the program is no composition of flows, return None."""
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
@@ -117,15 +118,15 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # The sample points are on the manifold of states. At other points, formulas of flows that commute may
-        # give different results.
+        # Flows that commute on the manifold of states may not commute at other points. Therefore the sample
+        # points are on this manifold.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # The two durations differ. With equal durations, both orders of the flows could agree by symmetry.
+        # The durations differ, because for equal durations both orders could agree by symmetry.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -144,7 +145,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
     """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
 
-    Only the parts of the flows ``letters`` count. The result has the order in which they first occur.
+    Only parts that occur in ``letters`` are compared. The result is in the order of their first occurrence.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

@@ -1,8 +1,8 @@
 """Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
 
-The pass is exact. A sum that is a single value with coefficient one becomes that value. The exponential of
-zero is the identity, and identity factors are removed. A linear operation on zero gives zero. For x = 0,
-dexp_x is the identity map.
+The pass is exact. A sum with the single term 1 x is replaced by x. The exponential of zero is the identity,
+and identity factors are removed. A linear operation on zero gives zero. For x = 0, dexp_x is the identity
+map.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _sum(rewriter, assign)
-    # t + 0 h is t. Thus the stage at the start of the step needs no stage time.
+    # A stage at the start of the step has the time t + 0 h, which is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
     # A value counts as zero if the operation Zero defines it, and as the identity if the operation Identity
@@ -73,8 +73,8 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # A term is removed only if its coefficient is provably zero. If the coefficient is a ball (a number with
-    # an error bound) that contains zero, the term is kept.
+    # A term is removed if its coefficient is provably zero. A coefficient that is a ball (a number with an
+    # error bound) is not provably zero, even if the ball contains zero.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))

@@ -1,8 +1,8 @@
-"""Functions of ad_x (dexp, dexp^{-1}, exp) that are applied one after the other become one function.
+"""Combine successive functions of ad_x (dexp, dexp^{-1}, exp) into one function of ad_x.
 
-The pass is exact. With Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), a chain of such operations is a
-product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
-it is 1 + b ad_x + c ad_x^2. Often no other operation needs the element exp(x), so it is not computed.
+The pass is exact. The adjoint maps Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x) are also functions of
+ad_x or ad*_x. A group may have a closed form for a product of functions: on SO(3) the product is
+1 + b ad_x + c ad_x^2 with scalars b and c. The group element exp(x) is often unused after the pass.
 """
 
 from __future__ import annotations
@@ -24,17 +24,16 @@ from codegen.scene.problem import Problem
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with functions of ad_x combined, if the group has closed forms of such functions."""
-    # Without a closed form, combining functions saves nothing: a product of functions needs as many brackets
-    # as its factors one after the other.
+    """For groups with closed forms, return the program with successive functions of ad_x combined."""
+    # Without closed forms, one combined function needs as many brackets as its factors together.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program in which one operation computes q exp(x) from q and x, for some products q exp(x).
+    """Return the program in which one operation computes some products q exp(x) directly from q and x.
 
-    This saves work if only one row of the matrix q exp(x) is needed. Therefore a product is changed only if
-    three conditions hold:
+    This saves work if only one row of the matrix q exp(x) is needed. A product is changed if three conditions
+    hold:
     - The product is a position at which the field in the body frame is evaluated.
     - The product is not the new position.
     - The field reads at most one row of the position.
@@ -66,7 +65,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # If x = s y, a product of functions of ad_x and ad_y is a function of ad_y.
+    # The assignment applies f(ad_x) to v. If v = g(ad_y) w and x is a multiple of y, f and g are
+    # combined.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -74,12 +74,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # With x = scale y, f(ad_x) is f(scale ad_y), so both factors of the product are functions of
-            # ad_y.
+            # From x = scale y follows f(ad_x) = f(scale ad_y). Thus f(ad_x) g(ad_y) is a function of ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. The new sum can
-    # be computed with two brackets.
+    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. Then f needs no
+    # operation of its own.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
@@ -104,10 +103,10 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Find y, W and v such that the program defines ``var`` as W(ad_y) v, and s such that x = s y.
+    """If the program defines ``var`` as W(ad_y) v and x = s y, return (s, (y, W, v)). Otherwise return None.
 
-    The result is (s, (y, W, v)), where the function W is given as a product of factors and s is a rational
-    number. If this is impossible, or if several operations read ``var``, the result is None.
+    The function W is given as a product of factors, and s is a rational number. If several operations read
+    ``var``, the result is None.
     """
     source = rewriter.definitions.get(var)
     # If another operation also reads W(ad_y) v, it still needs this value. Then W would be evaluated twice.
@@ -122,8 +121,8 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Apply a function F(ad_x) to each term of the sum ``total``. Append the new sum and return its variable.
 
-    ``word`` is F as a product of factors. For each term W(ad_y) v of ``total``, ``parts`` contains the entry
-    (s, (y, W, v)) with x = s y.
+    ``word`` contains the factors of F. ``parts`` describes each term W(ad_y) v of ``total`` by the entry
+    (s, (y, W, v)), where x = s y.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -156,8 +155,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if no such s is found."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations contain the same variables. The dictionaries ``a`` and ``b`` are sorted, so
-    # their items are compared in pairs.
+    # Proportional combinations have the same keys. The keys of both dictionaries are sorted.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}

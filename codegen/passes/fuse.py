@@ -21,8 +21,8 @@ def run(program: Program) -> Program:
             if (
                 source is not None
                 and isinstance(source.operation, Exp)
-                # If another operation also reads exp(x), exp(x) is computed in any case. Then the action is
-                # not fused, because the action of exp(x) on y is cheap.
+                # If another operation also reads exp(x), exp(x) is needed in any case. Then fusing saves
+                # nothing.
                 and rewriter.uses[assign.args[0]] == 1
             ):
                 fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))

@@ -1,8 +1,7 @@
 """Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
-The pass is exact. If L(c x) is needed for several numbers c, L(x) is then computed only once, and c becomes
-part of a coefficient. If several sums contain multiples of one linear combination of terms, this combination
-is computed once.
+The pass is exact. If a program contains L(c x) for several numbers c, L(x) needs to be computed only once. If
+several sums of a block contain multiples of one linear combination, this combination is computed once.
 """
 
 from __future__ import annotations
@@ -18,18 +17,18 @@ from codegen.passes.tearing import ordered
 Pattern = tuple[tuple[int, Coefficient], ...]
 """All sums that contain a certain value, as pairs (index of the sum, quotient).
 
-The quotient is the coefficient of the value in this sum, divided by its coefficient in the first of the sums.
+If the value has the coefficient c in this sum and c1 in the first of the sums, the quotient is c / c1.
 """
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers moved out of linear maps and without nested sums.
+    """Return the program with numbers moved out of linear maps and with nested sums expanded.
 
-    If several sums contain multiples of one linear combination of terms, this combination is computed once.
+    If several sums of a block contain multiples of one linear combination, this combination is computed once.
     """
     while True:
-        # A sum that was expanded into another sum may be unused now. Unused sums are removed in each round,
-        # because they would count as readers of their terms.
+        # A sum that was expanded into another sum may be unused now. It is removed before the next round,
+        # which counts how often each value is read.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -44,20 +43,20 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(c x) becomes c L(x). If a program contains L(c x) for several numbers c, the pass ``value_numbering``
-    # merges the equal values L(x).
+    # L(c x) becomes c L(x). For different numbers c, this gives several copies of L(x). The pass
+    # ``value_numbering`` merges these copies.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum with nested sums and multiples expanded, and return its value."""
+    """Expand the nested sums in a sum. Append the result and return its variable."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # Each reader of an expanded sum repeats the multiplications of the sum. Therefore a sum with several
-        # readers is expanded only if it has a single term.
+        # If a nested sum has several terms and is read several times, expanding it would repeat its
+        # multiplications. Such a sum is not expanded.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -76,7 +75,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _added(program: Program) -> Program:
     """Return the program in which sums share linear combinations of values.
 
-    If several sums contain multiples of one linear combination, this combination is computed once.
+    If several sums of a block contain multiples of one linear combination, this combination is computed once.
     """
     builder = Builder({v.name for v in defined(program)})
     # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
@@ -92,20 +91,20 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # ``places`` contains the coefficient of v in each sum. All coefficients are divided by the first one.
-        # Values with proportional coefficients then have equal tuples ``relative``.
+        # ``places`` contains the coefficient of v in each sum. ``relative`` contains these coefficients
+        # divided by the first one. Two values with proportional coefficients have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
+        # A value that occurs twice in one sum, with different powers of h, is skipped.
         distinct = len({k for k, _ in places}) == len(places)
-        # No quotient of two coefficients may contain a negative power of h, because h may be zero.
+        # A value is skipped if one of the quotients contains a negative power of h.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # One power of h is factored out of the common combination. Therefore all coefficients of the
-        # combination must have this power of h.
+        # The common combination is computed without powers of h. Therefore the coefficients of its values in
+        # the first sum must have the same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -116,7 +115,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The new common sums are appended at the end. Other sums read them, so the assignments are sorted again.
+    # The old sums read the new sums ``totals``, so the assignments are sorted.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A common sum reads only values that the old sums read, so no cycle can arise.
     assert result is not None

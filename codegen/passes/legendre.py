@@ -1,13 +1,14 @@
-"""The Legendre transform: momenta and forces of a stage computed from its velocity alone.
+"""The Legendre transform: compute momenta and forces of a stage from its velocity.
 
-The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P. A block of implicit
-equations computes an unknown v of the stage in three steps. Invertible linear maps compute P from a momentum
-M. The velocity is w = W(Q, P). Further invertible linear maps compute v from w. This pass computes the same
-values in the opposite direction: the inverse maps compute w from v, and the momentum is P = W^{-1}(Q, w).
+The pass is exact. Let P be the momentum of a stage. The velocity must be w = W P with a constant invertible
+matrix W. A block of implicit equations computes an unknown v of the stage in three steps:
+1. Invertible linear maps compute P from a momentum M.
+2. The velocity is w = W P.
+3. Further invertible linear maps compute v from w.
 
-After the pass, other operations read the momentum that is computed from v. A force then no longer depends on
-an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
-equation remains for each v: the momentum that is computed from v must equal M. The function
+The pass reverses these steps: it computes w from v, then P = W^{-1} w, then M. Forces are computed from these
+values, and the pass :mod:`codegen.passes.tearing` removes the forces from the unknowns. One equation remains
+for each v: both values of M, the given one and the one computed from v, must be equal. The function
 :func:`residuals` adds this equation to the block.
 """
 
@@ -26,7 +27,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Invertible linear maps of their last argument. Functions of ad_x are invertible if x is small."""
+"""Operations that are invertible linear maps of their last argument, if x in functions of ad_x is small."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +35,8 @@ class Path:
     """The assignments that compute an unknown from a momentum, which is called the base of the path.
 
     - ``inward`` contains invertible maps. They compute the momentum P of a stage from the base.
-    - ``velocity`` is the assignment that computes the velocity W(Q, P) of the stage at the position Q.
-    - ``outward`` contains invertible maps. They compute the unknown from W(Q, P).
+    - ``velocity`` is the assignment that computes the velocity w of the stage from P.
+    - ``outward`` contains invertible maps. They compute the unknown from w.
 
     The maps are in order of application. The last argument of each map is the result of the previous map.
     """
@@ -47,7 +48,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum from which the maps ``inward`` compute P."""
+        """The momentum at which the path begins."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -72,8 +73,7 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # An unknown equals its image at the solution. Later statements now read the unknown, and no longer
-        # its image.
+        # The block solves the equation unknown = image. Later statements read the unknown, not the image.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -83,7 +83,7 @@ def run(program: Program, scene: Problem) -> Program:
 def residuals(program: Program, scene: Problem) -> Program:
     """Return the program with residuals added to its blocks.
 
-    A block gets residuals only if the function :func:`path` finds a path for every unknown of the block.
+    A block gets residuals if the function :func:`path` finds a path for every unknown of the block.
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
     if scene.body is None or scene.body.inverse is None:
@@ -93,7 +93,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Newton's matrix must be square, so either all unknowns of a block have residuals or none.
+            # Newton's matrix must be square. Therefore a block needs one residual for each unknown, or none.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -104,7 +104,7 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path of an unknown, or None if the unknown is not computed as in :class:`Path`."""
+    """Return the path that computes an unknown, or None if the block contains no such path."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
@@ -117,10 +117,10 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before them.
+    """Return the chain of invertible linear maps that computes ``var``, and the assignment before the chain.
 
-    The maps are in order of application. The assignment computes the argument of the first map. It is None if
-    no assignment in ``maker`` computes this argument.
+    The maps are in order of application. The assignment computes the argument of the first map. If ``maker``
+    contains no such assignment, the second result is None.
     """
     maps: list[Assign] = []
     while True:
@@ -155,10 +155,10 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute all values of a path from its unknown, in the opposite direction.
+    """Append assignments that compute the values of a path backwards, from the unknown to the base.
 
     The result is a pair (dictionary, variable). The dictionary maps each old variable of the path to its new
-    variable. The variable is the new variable of the base, which is computed last.
+    variable. The second result is the new variable of the base.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -178,15 +178,15 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append the residual of the equation for the unknown of a path, and return its variable.
 
-    The residual is the difference of two values of one momentum. The equations of the block give the first
-    value. The second value is computed from the unknown.
+    The residual is the difference of two values of one momentum: the value that the block contains, and the
+    value that is computed from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The momentum of the residual may be any momentum of the path, because the maps between these momenta are
-    # invertible. By default it is the base.
+    # The maps between the momenta of a path are invertible, so the residual may compare any of these momenta.
+    # The default is the base.
     given = route.base
-    # If the momentum P of the stage is Ad*_{exp x} of a sum of terms f(ad*_x) v, then P is used. It is itself
-    # such a sum, because Ad*_{exp x} is a function of ad*_x.
+    # Let the momentum of the stage be P = Ad*_{exp x} m, where m is a sum of terms f(ad*_x) v. Then P is also
+    # a sum of such terms, and the residual compares P.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -195,7 +195,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if the momentum P of the stage is Ad*_{exp x} of a sum of terms f(ad*_y) v.
+    """Return True if the momentum of the stage is Ad*_{exp x} m, where m is a sum of terms f(ad*_y) v.
 
     Each term has its own f, y and v. Every y must be proportional to x.
     """
@@ -221,11 +221,11 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new values that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # If the base is not an unknown, the block computes it from values of other stages. Statements that are
-    # not on the path keep reading this old value of the base.
+    # If maps ``inward`` exist and the base is not an unknown, the block computes the base from other
+    # stages. Then statements that are not on the path still read the old variable of the base.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The statements on the path are not changed, because they form the equation for the unknown.
+    # The statements on the path are not changed: together with the base, they define the unknown.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
