@@ -6,27 +6,27 @@ Newton computes an approximate matrix that is correct to first order in h. Fixed
 matrix, and each sweep multiplies the error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). A trial
-(:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps from the initial
-state of the problem's example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the
-time of a step. ``benchmarks/solver_choice.py`` compares the choices with the solver that is fastest in
-measurements.
+(:mod:`codegen.run.trial`) makes the first :data:`STEPS` steps from the initial state of the problem's example
+and counts the sweeps and matrices. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts
+the time of a step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
 
-A solver is robust if it also converges in a step that is :data:`LONGER` times as long as usual, in at most
-:data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of fixed-point
-iteration grows without bound as h L tends to 1. For linear equations, the number of sweeps of Newton's method
-does not grow with h L. A solver that is not robust is chosen only if every robust solver is predicted to take
-more than :data:`PRICE` times as long as the fastest solver. The factor :data:`PRICE` is needed: if a robust
-solver were chosen at any cost, a step would take 5 to 14 times as long for some problems of the gallery with
-24 or 36 unknowns (``benchmarks/README.md``).
+The step size of this trial is called usual. A second trial makes one step of :data:`LONGER` times the usual
+size. A solver is robust if it converges in both trials and needs at most :data:`SWEEPS` sweeps in the long
+step. Let L be the Lipschitz constant of the equations. The number of sweeps of fixed-point iteration grows
+without bound as h L tends to 1. For linear equations, the number of sweeps of Newton's method does not grow
+with h L.
 
-For linear equations, a robust solver is preferred at any cost, so :data:`PRICE` is not used. Newton's method
-then needs one matrix for all steps of a run, and only accuracy limits the step size. A step is slower, but a
-run may be faster, because its steps can be longer.
+A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
+solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
+or 36 unknowns (``benchmarks/README.md``).
+
+For linear equations, a robust solver is preferred at any cost. Newton's method rarely computes a new matrix
+for them, and only accuracy limits the step size. A step is slower, but a run may be faster, because its steps
+can be longer.
 
 A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
-computed before the kernel is built. The kernel is not built if this bound already shows that another solver
-would be preferred (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer
-steps.
+computed first. If this bound is too large, the kernel is not built (:meth:`_Selection.consider`). Trials with
+more than :data:`LARGE` unknowns make fewer steps.
 """
 
 from __future__ import annotations
@@ -50,21 +50,22 @@ from orderconds.errors import UnknownName
 
 AUTO = "auto"
 CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The names of solvers that a user may request. AUTO requests the choice described in this module."""
+"""The values of the option for the solver. With AUTO, this module chooses the solver."""
 
 ASKED = "as asked for"
 """The reason that is reported for a solver that the user has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The usual trial of a solver makes STEPS steps, or FEW_STEPS steps if there are many unknowns.
+"""The first trial of a solver makes STEPS steps of the usual size.
 
-If the solver converges in these steps, a second trial makes one step that is LONGER times as long.
+If there are more than LARGE unknowns, the first trial makes only FEW_STEPS steps. If the solver converges, a
+second trial makes one step. Its size is LONGER times the usual size.
 """
 
 SWEEPS = 50
-"""A solver is robust only if it needs at most SWEEPS sweeps in a step that is LONGER times as long as usual.
+"""The largest number of sweeps that a robust solver may need in the long step of the second trial.
 
-A loop fails if it has not converged after twice this number of sweeps."""
+This number is half the limit at which an iteration fails (``Loop.limit``)."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -72,9 +73,9 @@ solver.
 """
 
 LARGE = 64
-"""With more unknowns than this number, a trial makes only FEW_STEPS steps.
+"""With more than LARGE unknowns, the first trial makes only FEW_STEPS steps.
 
-It also makes no continuation in h, because a continuation may take thousands of sweeps.
+Continuation in h is not tried, because it may take thousands of sweeps.
 """
 
 
@@ -88,7 +89,7 @@ class Choice:
 
     - ``label`` is the name of the block, and ``unknowns`` is the number of its unknowns.
     - ``compared`` contains a sentence on each solver that was considered.
-    - ``converges`` is False if no solver converges in its trial.
+    - ``converges`` is False if all trials of all solvers failed.
     """
 
     label: str
@@ -137,8 +138,8 @@ def solved(
     - ``asked`` is the requested solver, one of :data:`CHOICES`.
     - ``iterated`` is the kernel with fixed-point iteration, if the caller has already built it.
 
-    UnknownName is raised if ``asked`` is not in :data:`CHOICES`. MethodError is raised if Newton's method
-    needs the derivative of a function whose derivative is not known.
+    UnknownName is raised if ``asked`` is not in :data:`CHOICES`. MethodError is raised if the requested
+    solver needs a matrix that cannot be computed, for example because a derivative is not known.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -151,7 +152,7 @@ def solved(
         return fixed, _choices(fixed, ASKED)
     try:
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
-    # Each of these two errors means that the matrix of Newton's method cannot be computed.
+    # Both errors mean that the matrix of Newton's method cannot be computed.
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
             f"{METHODS[asked]} is not possible for {program.name}: {error}",
@@ -180,16 +181,16 @@ def is_linear(loop: Loop) -> bool:
     """Return True if the equations u = g(u) of ``loop`` are linear in the unknowns u."""
     # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
-    # Each name is assigned before it is read, so the degrees of all operands are known.
+    # The statements are visited in order. Each statement uses only names that are assigned above it.
     for let in loop.body:
         degrees[let.name] = _degree(let.value, degrees)
     return all(_degree(image, degrees) <= 1 for image in loop.images)
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression as a polynomial in its symbols.
+    """Return the degree of an expression as a polynomial in the unknowns: 0, 1 or NONLINEAR.
 
-    ``degrees`` contains the degrees of the symbols. NONLINEAR represents all degrees above one.
+    ``degrees`` contains the degree of each symbol that depends on the unknowns.
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
@@ -213,7 +214,7 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
 
 
 class Candidate:
-    """The kernel of one solver, with its cost and its two trials.
+    """A kernel with its cost model and the results of two trials.
 
     The first trial makes steps of the usual size, and the second trial makes one longer step.
     """
@@ -222,13 +223,12 @@ class Candidate:
         self.kernel, self.cost = kernel, StepCost(kernel)
         trials = Trials(kernel, scene, initial)
         self.usual = trials.run(trial_steps(kernel))
-        # A solver that already fails in steps of the usual size is not tried in a longer step.
+        # A solver that fails in steps of the usual size is not tried in a longer step.
         self.far = trials.run(1, LONGER) if self.usual.converged else None
 
     @property
     def robust(self) -> bool:
-        """True if the solver also converges in the longer step of the second trial, in at most SWEEPS
-        sweeps."""
+        """True if both trials converge and the second trial needs at most SWEEPS sweeps."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
@@ -261,7 +261,7 @@ def counted(trial: Trial, k: int) -> str:
 
 
 def amount(x: float, one: str, several: str) -> str:
-    """Return the text of a number with at most two decimals, followed by its noun.
+    """Return a number as text with at most two decimals, followed by the noun ``one`` or ``several``.
 
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
@@ -279,9 +279,9 @@ def measured(trial: Trial, k: int) -> str:
 class _Selection:
     """Chooses the solvers for one program.
 
-    ``candidates`` contains the solvers that were tried. ``left_out`` contains the solvers that were not
-    tried, each with the reason. ``refused`` contains those of them for which no kernel can be built, each
-    with the error message.
+    - ``candidates`` maps each solver that was tried to its kernel and the results of its trials.
+    - ``left_out`` maps each solver that was not tried to the reason.
+    - ``refused`` maps each solver whose kernel cannot be built to the error message.
     """
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
@@ -297,13 +297,13 @@ class _Selection:
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
-        # If no solver converges directly, a solver may still converge by continuation in the step size h.
+        # If every solver fails, continuation in the step size h may help.
         if not able:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # If all robust solvers are too slow, every solver that converges is allowed. This includes the case
-        # that there is no robust solver. For linear equations a robust solver is preferred at any cost.
+        # Every solver that converges is allowed if there is no robust solver, or if each robust solver takes
+        # more than PRICE times as long as the fastest solver. The second rule is for nonlinear equations.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -314,7 +314,7 @@ class _Selection:
         reasons = []
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
-            # If another solver is faster, the text says why it was not chosen.
+            # If the fastest solver of this block is not robust, the text states its weakness.
             if fastest[k] not in robust:
                 reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
@@ -325,10 +325,9 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver. Skip it if a lower bound shows that it would not be chosen.
+        """Build and try the kernel of a solver.
 
-        Simplified Newton inverts a matrix in each step. If there are many unknowns and Newton's method
-        converges, simplified Newton is tried only if it may be faster than Newton's method.
+        If a lower bound of the step time shows that the solver would not be chosen, no kernel is built.
         """
         least = self.least(solver)
         # For linear equations a robust solver is preferred even if it is slow. Therefore Newton's method is
@@ -337,14 +336,13 @@ class _Selection:
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
-            # ``least`` is a lower bound of the time of a step, and this bound is already too large. The
-            # kernel is not built.
+            # The lower bound ``least`` of the step time is too large, so the kernel is not built.
             self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
         except (NotDifferentiable, ZeroDivisionError) as error:
-            # The error excludes only this solver. The text of the error is reported with the choice.
+            # This solver cannot be used. The text of the error is reported with the choice.
             self.refused[solver] = str(error)
             self.left_out[solver] = f"not possible: {error}"
             return
@@ -356,14 +354,13 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit for predicted step times, in nanoseconds.
+        """Return the step time in nanoseconds below which another solver may replace ``candidate``.
 
-        ``solver`` is the solver of ``candidate``. Another solver can be preferred to ``candidate`` only if
-        its step time is below this limit.
+        ``solver`` is the solver of ``candidate``.
         """
-        # If ``candidate`` is not robust, a robust solver is preferred although it may take up to PRICE times
-        # as long. With many unknowns, Newton's method counts as robust. Simplified Newton is then tried only
-        # if it may be faster than Newton's method.
+        # A robust solver may take up to PRICE times as long as a candidate that is not robust. With more than
+        # LARGE unknowns, this factor is not used for Newton's method. Otherwise simplified Newton would often
+        # be tried, and its trial is slow because it inverts a large matrix in each step.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -374,11 +371,10 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The bound assumes a single sweep over each block. It does not include the inversion of small matrices.
-        Small matrices are inverted by formulas, and these formulas are unknown before the kernel is built.
+        The bound assumes a single sweep over each block in each step or substep. It omits the inversion of
+        small matrices, because the formulas for these inverses are not known before the kernel is built.
         """
-        # The lower bound assumes one sweep each time that a block is solved. The work of matrices is added
-        # below.
+        # This is the work of the sweeps. The loop below adds the work with matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
@@ -386,8 +382,8 @@ class _Selection:
             n = len(loop.unknowns)
             # Multiplying the inverse by the residuals takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each step. Newton's method inverts at least one matrix in
-            # the whole trial.
+            # Simplified Newton inverts a matrix in each substep. Newton's method may reuse a matrix in all
+            # steps of the trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -396,7 +392,10 @@ class _Selection:
 
     @property
     def parts(self) -> int:
-        """The number of times that a step solves each block: once in each substep."""
+        """The number of substeps in a step, or 1 if a step has no substeps.
+
+        Each block is solved once in a substep.
+        """
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
@@ -410,17 +409,17 @@ class _Selection:
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
-        # Each of the solvers converged in its own trial, but this does not prove that their combination
-        # converges. Therefore the combination is tried too.
+        # Each solver converged when it solved all blocks, but their combination may fail. Therefore the
+        # combination needs a trial.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the kernel and the choices if no solver converges directly.
+        """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
-        The cheapest solver that converges by continuation in h is chosen. The continuation is not tried for
-        more than LARGE unknowns. If the continuation fails or is not tried, the choice is Newton's method. If
-        there is no kernel with Newton's method, the choice is fixed-point iteration.
+        With at most LARGE unknowns, continuation in h is tried for each solver. The solver with the shortest
+        predicted time is chosen among those that converge. If none converges, or with more unknowns, Newton's
+        method is chosen. If there is no kernel with Newton's method, fixed-point iteration is chosen.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -441,15 +440,15 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
-                # If no continuation was tried, ``small`` is False. A text times False is the empty string.
+                # If ``small`` is False, no continuation was tried, and the text times False is empty.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 
     def weakness(self, solver: str) -> str:
-        """Return a text that says why a solver that converges in steps of the usual size is not robust."""
+        """Return the reason why a solver is not robust. The solver must converge in its first trial."""
         far = self.candidates[solver].far
-        # The solver converged in the first trial, so it was also tried in a longer step.
+        # The first trial converged, so there was a second trial.
         assert far is not None
         if not far.converged:
             return f"does not converge in a step of {LONGER} h"
@@ -459,8 +458,7 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
-            # ``left_out`` contains a reason for each solver that was not tried. It replaces the results of
-            # trials.
+            # For a solver that was not tried, ``left_out`` contains the reason.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

@@ -1,8 +1,7 @@
 """Statistics of a run: the numbers of sweeps and of Newton matrices, and the block of equations that failed.
 
 The caller passes a record, and a run adds its counts to this record. If the caller passes no record, nothing
-is counted. Separate emitted functions change the record. The code that solves equations only calls these
-functions.
+is counted. The loops that solve equations call emitted functions that update the record.
 """
 
 from __future__ import annotations
@@ -12,12 +11,12 @@ from codegen.run.plan import STATISTICS, Plan
 from codegen.run.terms import OK, STATUS, Kind, Term, code, count, flag, given, whole
 
 SWEEPS = count("sweep")
-"""The number of sweeps that the current loop has made in this step."""
+"""The emitted variable that counts the sweeps of an iteration. Each iteration starts at zero."""
 
 
 def statistics_record(plan: Plan) -> Record:
     """Return the type of the record with the statistics."""
-    # Sweeps are counted for each block of equations, because a total would hide a single slow block.
+    # Each block of equations has its own number of sweeps, because a total would hide a slow block.
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
@@ -25,7 +24,7 @@ def statistics_record(plan: Plan) -> Record:
         # Blocks are numbered from 1, so that 0 can mean that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # The matrices of simplified Newton are not counted, because it computes one matrix in each step.
+    # Simplified Newton needs no such field, because the number of its matrices is known.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
@@ -39,8 +38,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The largest number of sweeps is also stored. A single step with many sweeps is the first sign that
-        # the step size is too large, but a sum over all steps does not show it.
+        # The record also contains the largest number of sweeps in one step. A single step with many sweeps is
+        # the first sign that the step size is too large. The sum over all steps does not show such a step.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -49,8 +48,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
-            # If the caller passes no record, nothing is counted. The test is in this function, so that the
-            # loops need no test.
+            # This function tests whether the caller passed a record, so the loops need no test.
             (If(given(statistics), adding),),
         )
     ]
@@ -77,6 +75,6 @@ def count_matrix(plan: Plan) -> Statement:
 def no_failure(plan: Plan) -> Statement:
     """Return the statement that sets the field ``failed`` to zero.
 
-    It is executed when the continuation has repeated a failed step with success.
+    The emitted code executes this statement if a failed step is repeated and succeeds.
     """
     return If(given(plan.statistics), (Assign(plan.statistics.field("failed", Kind.COUNT), whole(0)),))

@@ -1,4 +1,4 @@
-"""The texts on the status codes of emitted code: comments in headers, and reasons in error messages."""
+"""Texts that explain the status codes of emitted code, in header comments and in error messages."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ MEANINGS = {
     BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
-"""For each status code, the comment in the header of emitted code."""
+"""Maps each status to the comment that explains it in the header of emitted code."""
 
 REASONS = {
-    # The statuses OK and EVENT are no failures, so no reason is needed for them.
+    # OK and EVENT are missing, because they are no failures.
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
@@ -56,19 +56,19 @@ REASONS = {
     BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is not finite for h = {h}",
 }
-"""For each status that is a failure, the text that states the reason in error messages.
+"""Maps each status of a failure to the text that explains the failure in error messages.
 
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""The reason in error messages for the status NOT_FINITE if an implicit block has failed."""
+"""The text for NOT_FINITE that replaces the text in REASONS if an implicit block has failed."""
 
 
 @dataclass(frozen=True)
 class StatusCode:
-    """A status code: name, number, meaning, and the reason for error messages.
+    """A status code with its texts for header comments (``meaning``) and error messages (``reason``).
 
-    The reason is '' if the status is no failure.
+    If the status is no failure, ``reason`` is empty.
     """
 
     name: str
@@ -83,24 +83,24 @@ MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STE
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
-    # For these steps, BAD_SHAPE describes the number n of points.
+    # In a step on Fourier modes, n is the number of points of the grid.
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
-"""For each status that a step on Fourier modes can return, the comment in the header of emitted code."""
+"""The same comments as in MEANINGS for steps on Fourier modes, except for BAD_SHAPE."""
 
 
 def reason(status: str, block: str, h: float) -> str:
-    """Return the reason for a failure. ``h`` is the step size.
+    """Return the text that explains a failure in an error message.
 
-    ``block`` is the label of the block of equations that failed, or '' if no block failed.
+    ``block`` is the label of the block of equations that failed, or '' if no block failed. ``h`` is the step
+    size.
 
     >>> reason("SINGULAR", "the equations of x", 0.1)
     'the matrix of the equations of x is singular'
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
-    # A block of equations that fails ends the step before the new state is computed. The reason therefore
-    # names the block and not the new state.
+    # If a block of equations has failed, the new state was not computed, so the text names the block.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 
@@ -111,8 +111,8 @@ def statuses(unit: Unit) -> tuple[StatusCode, ...]:
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}
-        # With this guard, the function returns NOT_FINITE after an arithmetic error. Therefore NOT_FINITE is
-        # added even if the body of the function does not contain it.
+        # With the guard RAISES_STATUS, a function also returns NOT_FINITE after an arithmetic error. The body
+        # of the function need not contain this status.
         if function.guard == RAISES_STATUS:
             used.add(NOT_FINITE)
     return tuple(
