@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump`` or ``rkmk(2):rk4``.
 
-A tableau without a family, such as ``cf4``, also names a method. Some families need no tableau:
-``taylor(12)`` is a method.
+The label of a method may contain only the tableau, as in ``cf4``. Some families have no tableau. Their
+labels contain only the family, as in ``taylor(12)``.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ STEP = "step"
 """The word before the colon in a label such as ``step:NAME``, where NAME is a step that the scene defines."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The label of a method without a tableau: a family, with a number in parentheses if needed."""
+"""The label of a method without a tableau: a family, or a family and a number, as in ``taylor(12)``."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -42,10 +42,9 @@ class Method:
     - ``coefficients`` is the tableau, or None for a family without tableau.
     - ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. For a family without tableau,
       it is the number in the label, such as 12 in ``taylor(12)``.
-    - ``adaptive`` is True if each step also computes the result of the embedded method, for an error
-      estimate.
-    - ``step`` is the name of a step y1 = M y0 for which the scene gives a formula of the matrix M, otherwise
-      ''. A method with such a step has no tableau.
+    - ``adaptive`` is True if the emitted code controls the step size.
+    - ``step`` is the name of a step y1 = M y0. The scene defines the matrix M by a formula. A method with a
+      step of this form has no tableau. For all other methods, ``step`` is ''.
     """
 
     family: str
@@ -87,7 +86,7 @@ class Method:
 
     @property
     def source(self) -> str:
-        """The publication of the tableau. For a method without a tableau, the publication of the family."""
+        """The publication of the tableau, or of the family if the method has no tableau."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
@@ -97,11 +96,11 @@ class Method:
 
     @property
     def ring(self) -> Ring:
-        """The ring that contains the coefficients. It is QQ for a method without a tableau."""
+        """The ring of the coefficients. For a method without a tableau, the ring is QQ."""
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a :class:`Number`. If it is rational, its ring is QQ."""
+        """Return the coefficient x as a :class:`Number`. The ring of a rational number is QQ."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -136,7 +135,7 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return the method in a form in which its stages and its update are products of exponentials.
+        """Return the tableau as a method with products of exponentials in the stages and in the update.
 
         A Butcher tableau is read as a Crouch-Grossman method.
         """
@@ -148,19 +147,20 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        An embedded method is needed if ``adaptive`` is True, and the family does not estimate the error in
-        another way. :class:`MethodError` is raised if it is needed and there is none.
+        If ``adaptive`` is False, no embedded method is needed. Some families, such as ``taylor``, control
+        the step size without an embedded method. :class:`MethodError` is raised if a needed embedded method
+        does not exist.
 
-        The embedded method uses the same stages with other weights, so the stages must not depend on the
-        weights. In a method with the fewest brackets (``rkmk`` without a cut-off), the brackets in the stages
-        depend on the weights. Such a method therefore has no embedded method.
+        The embedded method uses the same stages with other weights. The stages must therefore not depend on
+        the weights. Methods of the family ``rkmk`` without a cut-off use the fewest brackets. The choice of
+        these brackets depends on the weights, so these methods have no embedded method.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
-            # Step-size control is not useful here: with steps of different sizes, symplectic and variational
-            # methods do not conserve their modified energy.
+            # With steps of different sizes, symplectic and variational methods do not conserve their modified
+            # energy. Step-size control is therefore not useful for these methods.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -193,17 +193,17 @@ class Method:
 def _file(name: str) -> Path:
     """Return the path of a tableau file.
 
-    If ``name`` ends in ``.toml``, it is the path. Otherwise it is the name of a tableau in the library.
+    A ``name`` that ends in ``.toml`` is the path itself. All other names denote tableaux of the library.
     """
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with balls as coefficients, or unchanged if it contains no valid proof.
+    """Return the tableau with balls (small intervals) instead of decimal coefficients.
 
-    Coefficients in a tableau file may be decimals. The file may contain a proof that exact coefficients exist
-    near the decimals. Each ball (a small interval) then contains an exact coefficient.
+    A tableau file may contain a proof that exact coefficients exist near the decimals. Each ball contains the
+    exact coefficient. A tableau without a valid proof is returned unchanged.
     """
     if tableau.proof is None:
         return tableau
@@ -220,7 +220,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families whose stages do not depend on the weights. Only they allow embedded methods."""
+    """Return the families that allow embedded methods. Their stages do not depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -242,7 +242,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
 
 
 def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> UnclaimedTableau:
-    """Return the error for a tableau whose format none of the ``families`` can use."""
+    """Return the error for a tableau with a format that ``families`` cannot use."""
     formats = sorted({f for name in families for f in family_class(name).formats})
     error = UnclaimedTableau(
         f"the tableau {tableau.name} has the format {tableau.family}, which these families cannot use: "
@@ -263,14 +263,14 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in any family of ``readable``.
+    """Return the error for a tableau that claims no order in the families ``readable``.
 
-    ``readable`` are the families that can use the format of the tableau.
+    These families can use the format of the tableau.
     """
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the label in the hint contains a cut-off. A label without a cut-off would
-    # be refused.
+    # For a family with a cut-off, the hint contains a label with a cut-off. The parser would refuse a label
+    # without a cut-off.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
@@ -330,8 +330,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
     """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
 
     ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
-    family in which the tableau is used. If ``family`` is empty, it is determined by the orders that the
-    tableau claims, or by computed orders if there are no claims.
+    family in which the tableau is used. If no family is given, the family with the highest claimed order
+    is chosen. If a given :class:`Tableau` claims no order, the orders are computed.
     """
     if isinstance(given, Method):
         return given
@@ -353,10 +353,10 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield an order claim for each family in which the tableau can claim an order.
+    """Compute the order of the tableau in each suitable family, and yield the orders as claims.
 
-    For a family with cut-offs, a claim is made for each variant, such as ``rkmk(1)``. The orders are computed
-    from the order conditions. If ``family`` is given, only claims for this family are computed.
+    The orders follow from the order conditions. The family ``rkmk`` has one claim for each small cut-off,
+    such as ``rkmk(1)``. If ``family`` is not empty, only claims for this family are computed.
     """
     from orderconds.checking import check, claimable_families
 
@@ -389,13 +389,14 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    If the family is ``rkmk`` and the text contains no cut-off, the compiler searches for the smallest number
-    of brackets for which the method has the order of its tableau. The search requires an explicit tableau
-    with exact coefficients, and it supports a limited order. For other tableaux, the cut-off with the highest
-    claimed order is chosen. Among cut-offs of equal order, the smallest is chosen.
+    A missing cut-off is chosen by the highest claimed order. Among cut-offs of equal order, the smallest is
+    chosen. The family ``rkmk`` has an exception: explicit tableaux with exact coefficients and a claimed
+    order of at most 6 get no cut-off. The compiler searches for the smallest number of brackets
+    that preserves the order of the tableau.
 
-    :class:`MethodError` is raised if the text cannot be read. It is also raised if the text lacks the family
-    or the cut-off, and the tableau claims no order by which the missing part could be chosen.
+    :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
+    family. It is also raised if the claims of the tableau do not determine a missing family or cut-off.
+    :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -432,18 +433,17 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
         raise MethodError(
             f"the family {family} has no cut-off",
             where=text,
-            expected=f"no cut-off; only {' or '.join(cutting)} has a cut-off, as in rkmk(2):rk4",
+            expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # If the coefficients of a commutator-free tableau are summed over the exponentials, the sums are the a_ij
-    # and b_j of a Runge-Kutta method. The tableau file may state the order of this Runge-Kutta method, as a
-    # claim for the family rk. The claim is ignored here, because a step of a commutator-free tableau is a
-    # product of exponentials.
+    # A step of a commutator-free tableau is a product of exponentials. The sums of its coefficients over the
+    # exponentials define a Runge-Kutta method. The tableau may claim the order of this Runge-Kutta method for
+    # the family rk. The next line ignores this claim.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # A claim may name a family with a number, such as ``splitting(3)``. The number is removed here.
+    # The family of a claim may be ``splitting(3)``, for example. The next line removes the "(3)".
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

@@ -20,7 +20,7 @@ HAMILTONIAN = (
     "a Hamiltonian scene, because the state of a variational method contains a momentum, and a vector field "
     "on a manifold has no momentum"
 )
-"""The scene that variational methods require, as a text for error messages."""
+"""The text in error messages for scenes without a Hamiltonian."""
 
 
 class VariationalLowering(Lowering):
@@ -30,8 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # Hamiltonian scenes are usually integrated over long times. Symplectic methods then usually have smaller
-    # errors than other methods of the same order, so variational families are preferred.
+    # The compiler prefers variational families, because Hamiltonian scenes are usually integrated over long
+    # times. Symplectic methods then usually have smaller errors than other methods of equal order.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -39,7 +39,7 @@ class VariationalLowering(Lowering):
         return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene unchanged, because the programs of this family are made from the scene itself."""
+        """Return the scene unchanged."""
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -48,10 +48,9 @@ class VariationalLowering(Lowering):
 
 
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
-    """Return the object Stages for a step from (q, mu), the tableau, and its coefficients A and b.
+    """Return the stages of a step from (q, mu), the tableau, its matrix A and its weights b.
 
-    A and b are converted to numbers of the class Number. :class:`orderconds.errors.ZeroWeight` is raised if
-    some b_i = 0.
+    :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
     """
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
@@ -64,8 +63,8 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # If a weight is known only as a ball (an interval), and the ball contains zero, division by the
-        # weight is not defined. For such a weight, ``is_zero`` returns None.
+        # A weight may be a ball (an interval) that contains zero. Division by this ball is not defined, and
+        # ``is_zero`` returns None.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -83,8 +82,8 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # The compiler cannot choose the cut-off. Its search for the fewest brackets supports dexp^{-1} only,
-        # but a variational program also contains the dual and the derivative of the truncated series.
+        # The compiler can search for the fewest brackets only in dexp^{-1}. A variational program also
+        # contains the dual and the derivative of the truncated series, so the user chooses the cut-off.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
@@ -95,9 +94,9 @@ def brackets(method: Method) -> int:
 class ExpandedStep(ABC):
     """A step with a truncated series of dexp^{-1} or dexp.
 
-    The points are Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h sum_j a_ij v_j and Y = h sum_j b_j v_j.
-    Here a_ij and b_j are the coefficients of the tableau. Subclasses define the equations for the v_j and for
-    the momenta.
+    The stages are Q_i = exp(X_i) q0 with X_i = h sum_j a_ij v_j. The result is q1 = exp(Y) q0 with
+    Y = h sum_j b_j v_j. The coefficients of the tableau are a_ij and b_j. Subclasses define the equations for
+    the v_j and for the momenta.
     """
 
     unknowns: list[Var]
@@ -120,7 +119,7 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def images(self) -> list[Var]:
-        """Append the operations of all stages, and return the new value of each unknown."""
+        """Append the operations of one iteration, and return the new values of the unknowns."""
 
     @abstractmethod
     def starts(self) -> list[Var]:
@@ -137,7 +136,7 @@ class ExpandedStep(ABC):
         """Append Y, -Y, nu_j and mubar to the program, and store their variables as attributes."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
-        # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
+        # The variable ``minus`` contains -Y for the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
         # Ad*_{exp X_j} transports the force n_j from Q_j to q0, where the forces of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]

@@ -1,8 +1,9 @@
 """Variational commutator-free methods on T*G.
 
-In contrast to variational Crouch-Grossman methods (VCG), an exponent may combine several stages. A
-commutator-free method has coefficients alpha_iJ^j in exponent J of stage i, and beta_J^j in exponent J of the
-update. Its products of exponentials are
+In variational Crouch-Grossman methods (VCG), each exponent contains the velocity xi_j of one stage. In a
+commutator-free method, an exponent is a linear combination of the velocities of several stages. The
+coefficients are alpha_iJ^j in exponent J of stage i, and beta_J^j in exponent J of the update. The products
+of exponentials are
 
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
@@ -16,10 +17,10 @@ equations for the discrete Lagrangian, transported to q0, are
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-As for VCG, these equations use the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for elements x of the Lie
-algebra. Therefore Ad* contains the product e^{J-1}, which does not include factor J. In M_i, the program
-expands mubar into one term for mu0 and one term for each nu_j. Later passes of the compiler can then find
-equal terms with opposite signs, and remove these terms.
+The subscripts of Ad* contain e^{J-1} and E_j^{J-1}, the products of the factors before factor J. The identity
+dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for elements x of the Lie algebra combines factor J with dexp*. In M_i, the
+program expands mubar into one term for mu0 and one term for each nu_j. Some of these terms may cancel terms
+of the second sum. Later passes of the compiler remove terms that cancel.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 Rows = tuple[tuple[Number, ...], ...]
-"""The exponents of a product of exponentials, as rows of coefficients. The first exponential acts first."""
+"""The coefficients in a product of exponentials: one row for each exponent. The first factor acts first."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class _Product:
     """A product of exponentials in a program.
 
     - ``rows`` contains the coefficients of the exponents.
-    - ``minus`` contains the exponents, multiplied by -1.
+    - ``minus`` contains the negative exponents.
     - ``partial`` contains the products of the first 0, 1, ... factors.
     """
 
@@ -54,7 +55,7 @@ class _Product:
 
     @classmethod
     def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
-        """Append exp(h sum_j row_j xi_j) for each row in ``rows``, and return the product of all factors."""
+        """Append and return the product with one factor exp(h sum_j row_j xi_j) for each row."""
         build = stages.builder
 
         def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
@@ -65,7 +66,7 @@ class _Product:
         # factor has no earlier factors, so its product is the identity.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
-            # The plus sign is needed for exp, the minus sign for dexp*_{-x}.
+            # The exponent x is the argument of exp. The negative exponent is needed for dexp*_{-x}.
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
             # New factors multiply from the left, because the first exponential acts first.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
@@ -73,9 +74,10 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append dexp*_{-x} Ad*_{p^-1} m, where x is the exponent of factor J of this product.
+        """Append the covector dexp*_{-x} Ad*_{p^-1} m.
 
-        The group element p is the product of all factors before factor J. The first factor has the index 0.
+        The Lie algebra element x is the exponent of factor J. The group element p is the product of all
+        factors before factor J. The first factor has the index J = 0. The index i occurs only in names.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -90,7 +92,7 @@ class VariationalCommutatorFree(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VCF method.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
         """
         return _program(problem, method)
 
@@ -107,17 +109,17 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i as a sum of separate terms for mu0 and for each nu_j."""
+        """Append the momentum M_i of stage i."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # ``share`` is beta_J^i/b_i. The sum of these quotients over all J is 1.
+                # ``share`` is beta_J^i/b_i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # mubar is expanded into its terms, because terms of the next loop may cancel some of them.
+                # The terms of mubar are kept separate. Some of them may cancel terms of the second sum.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The remaining terms are the second sum in the equation for M_i. They occur because the points Q_j
-        # depend on xi_i.
+        # This loop appends the second sum in the equation for M_i. The equation contains this sum, because
+        # the points Q_j depend on xi_i.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -127,8 +129,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # Each stage computes its whole product, even if several stages have the same first factors. A later
-        # pass finds equal products, and computes them once.
+        # Products of different stages may have the same first factors. The program contains these factors
+        # several times. A later pass removes the repetitions.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -155,12 +157,12 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the coefficients in the exponents of each stage, and those in the exponents of the update.
+    """Return the rows of coefficients for each stage, and the rows for the update.
 
-    If a stage starts from an earlier stage, its first rows are the rows of the earlier stage.
+    A stage may start from an earlier stage. The rows of the earlier stage then come first.
     """
     tableau = method.commutator_free()
-    # The update consists of rows of coefficients, like a stage. It comes after all stages.
+    # The update has rows of coefficients like a stage, and is the last entry.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)
@@ -169,7 +171,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return the weights b_i = sum_J beta_J^i. ZeroWeight is raised if some b_i = 0."""
+    """Return the weights b_i = sum_J beta_J^i. ZeroWeight is raised if a weight may be zero."""
     b = []
     for i in range(s):
         # The weight b_i is the sum of the coefficients of xi_i in all exponents of the update.

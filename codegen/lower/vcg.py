@@ -11,11 +11,11 @@ equations are
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-The equation for M_i is (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In M_i, the program
-expands mu0 + h sum_j b_j nu_j into separate terms. If a_ji = b_i and E_j^{i-1} = e^{i-1}, the two terms of
-M_i with nu_j cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). This happens if the tableau is a composition
-of substeps, and stage j belongs to a later substep than stage i. Later passes of the compiler remove these
-terms. The stages can then be computed one after the other.
+The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In M_i, the
+program expands mu0 + h sum_j b_j nu_j into separate terms. If a_ji = b_i and E_j^{i-1} = e^{i-1}, the two
+terms of M_i with nu_j cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). In a composition of substeps, the
+terms cancel if stage j is in a later substep than stage i. Later passes of the compiler remove terms that
+cancel. Each substep can then be computed without the later substeps.
 """
 
 from __future__ import annotations
@@ -37,19 +37,18 @@ class VariationalCrouchGrossman(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VCG method.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
         """
         return _program(problem, method)
 
 
-# All partial products e^j and E_i^j are stored, because M_i contains the products of the factors before
-# factor i. A coefficient zero gives exp(0) = 1, which a later pass removes.
+# M_i contains products of the factors before factor i, so all partial products e^j and E_i^j are stored. A
+# coefficient zero gives the factor exp(0) = 1. A later pass removes this factor.
 #
-# The identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i merges the exponential of xi_i into
-# dexp*. The sum mu0 + h sum_j b_j nu_j is expanded into one term for mu0 and one term for each nu_j. In a
+# The sum mu0 + h sum_j b_j nu_j is expanded into one term for mu0 and one term for each nu_j. In a
 # composition of substeps, some of these terms cancel terms of the second sum in M_i. The cancellation must be
-# exact. Therefore the quotient a_ji/b_i is computed before the product with b_j: the quotient is exactly one
-# if a_ji = b_i, even if both are known only as balls (intervals).
+# exact, also for coefficients that are balls (intervals). The quotient a_ji/b_i is therefore computed before
+# the product with b_j. If a_ji = b_i, the quotient is exactly one.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -67,7 +66,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i as a sum of separate terms for mu0 and for each nu_j."""
+        """Append the momentum M_i of stage i."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

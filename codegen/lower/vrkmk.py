@@ -11,10 +11,10 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later stages.
-In this case the program computes m_i from them, and Lambda is an unknown instead of m_i. In the equation of
-an unknown m_i, the program replaces Lambda and the lambda_j by their formulas. On an abelian group, some of
-the resulting terms cancel.
+In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later
+stages. For such a stage i, the program computes m_i, and Lambda is an unknown instead. In the equation of an
+unknown m_i, the program replaces Lambda and the lambda_j by their formulas. On an abelian group, some of the
+resulting terms cancel.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class VariationalMuntheKaas(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
@@ -50,15 +50,14 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # The key i denotes stage i. ``forces`` contains the n_i, and ``slopes`` contains the vectors
-        # P*_(r)(X_i, xi_i) m_i.
+        # The keys are the indices i of the stages. ``forces`` contains the forces n_i. ``slopes`` contains
+        # the vectors P*_(r)(X_i, xi_i) m_i, defined in the docstring of this module.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from their values in the previous iteration."""
-        # ``self.v`` contains the v_j of the previous iteration. The exponents X_i are computed from them.
-        # ``velocities`` contains the new v_j. The exponent Y is computed from them.
+        # The exponents X_i contain the v_j of the previous iteration. The exponent Y contains the new v_j.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -66,16 +65,16 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._multiplier(i) for i in range(self.s)), image]
 
     def _evaluated(self) -> list[Var]:
-        """Append the evaluation of the scene in each stage, and return the v_i.
+        """Append the velocities and forces of all stages, and return the new values of the v_i.
 
-        The last stage comes first, because m_i may depend on the lambda_j of later stages.
+        The stages are computed from the last to the first, because m_i may depend on later stages.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # In the equation for m_i (see the docstring of this module), the coefficients are in column i of A.
+        # The equation for m_i (see the docstring of this module) contains column i of A.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends only on Lambda and on later stages, it is computed here and is not an unknown.
+            # If m_i depends only on Lambda and on later stages, the program computes m_i here.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -87,15 +86,16 @@ class _Step(ExpandedStep):
             # The series for v_i and the series for M_i have the same cut-off. Otherwise v_i and M_i would not
             # follow from one discrete Lagrangian, and the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # If r > 0, dexp^{-1}_{(r),X} depends on X, and its derivative with respect to X acts as a force.
+            # For r > 0, dexp^{-1}_{(r),X} depends on X. The slope in the equation for lambda_i comes from the
+            # derivative with respect to X.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
-            # The variation of exp(X_i) is dexp_{X_i} applied to the variation of X_i. Hence the dual of dexp
-            # acts on the force.
+            # A variation of X_i changes exp(X_i) by dexp_{X_i} of this variation. Hence the equation for
+            # lambda_i contains dexp*_{X_i} n_i, the dual of dexp_{X_i} applied to the force n_i.
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The v_i were computed from the last stage to the first, and are returned from the first to the last.
+        # The loop appends the last stage first. The list begins with the first stage.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
@@ -106,9 +106,9 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, nu_j = n_j, dexp*_{X_j} n_j = n_j, and the slope is zero. The coefficient
-            # of n_j in m_i is then h b_j (b_i - a_ji). Division by b_i gives the equation for M_i of a
-            # symplectic partitioned Runge-Kutta method.
+            # On an abelian group, nu_j and dexp*_{X_j} n_j are equal to n_j, and the slope is zero. The
+            # coefficient of n_j in m_i is then h b_j (b_i - a_ji). For M_i = m_i/b_i, this is the equation of
+            # a symplectic partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))
@@ -124,7 +124,7 @@ class _Step(ExpandedStep):
         """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
-        # m_i is b_i times a momentum, so its first value is b_i mu0.
+        # m_i is b_i times a momentum, so the initial guess of m_i is b_i mu0.
         weighted = [
             build.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(self.b[i]), self.mu)]) for i in range(self.s)
         ]

@@ -1,19 +1,20 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexp^{-1} replaced by the inverse of a truncated dexp.
 
-The source is section 3.4.1 of Marthinsen's thesis. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
-dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. These equations give each xi_i as a
-formula in the v_j. The discrete Lagrangian is then a function of q0 and the v_j without constraints, so no
-Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect
-to x. The velocity xi_i and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
+The source is section 3.4.1 of Marthinsen's thesis. The truncated series of dexp is
+dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)!. Let (xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force
+of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. These equations
+give each xi_i as a formula in the v_j. The discrete Lagrangian is then a function of q0 and the v_j without
+constraints, so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
+dexp_{(r),x} v with respect to x. The other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
-h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are all v_i and M_i. The term k = 0 of dexp_{(r),X_i} v_i
-is v_i, and the term k = 0 of dexp*_{(r),X_i} M_i is M_i. For a fixed-point iteration, the equations are
-solved for these v_i and M_i. All other terms use the values of the previous iteration.
+h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. The program solves the
+equations by a fixed-point iteration. The new v_i is the term k = 0 of dexp_{(r),X_i} v_i, and the new M_i is
+the term k = 0 of dexp*_{(r),X_i} M_i. All other terms use the values of the previous iteration.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step, with ``method.cutoff`` brackets in the series of dexp.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`orderconds.errors.ZeroWeight` is raised if a weight b_i may be zero.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
@@ -53,9 +54,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # Each list has one entry for each stage i. ``forces`` contains the forces n_i, and ``slopes`` the
-        # vectors R*_(r)(X_i, v_i) M_i. An entry of ``corrections`` consists of the terms k >= 1 of
-        # -dexp*_{(r),X_i} M_i.
+        # Each list has one entry for each stage i. ``forces`` contains the forces n_i. ``slopes`` contains
+        # the vectors R*_(r)(X_i, v_i) M_i. ``corrections`` contains the terms k >= 1 of -dexp*_{(r),X_i} M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -68,15 +68,15 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._momentum(i) for i in range(self.s))]
 
     def _evaluated(self, i: int) -> Var:
-        """Append the evaluation of the scene in stage i, and return the new value of v_i."""
+        """Append the velocity and the force of stage i, and return the new value of v_i."""
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
         # ``brackets`` are the vectors ad_X^k v_i, and ``momenta`` are the vectors (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # In the equation dexp_{(r),X} v = xi, the term k = 0 of the series is v itself. The equation is
-        # solved for this term: v = xi - sum_{1<=k<=r} ad_X^k v/(k+1)!. For small h, the right-hand side is a
-        # contraction in v, so the iteration converges.
+        # The equation dexp_{(r),X} v = xi contains v itself as the term k = 0. The new value of v is
+        # xi - sum_{1<=k<=r} ad_X^k v/(k+1)! with the previous v in the sum. For small h, this map is a
+        # contraction, so the iteration converges.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -84,18 +84,18 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append and return ad_x^k ``first`` for k = 0, ..., r.
+        """Append and return the vectors ad_x^k v for k = 0, ..., r, where v is ``first``.
 
         If ``first`` is a covector, ad*_x replaces ad_x.
         """
         powers = [first]
         for k in range(self.r):
-            # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.
+            # One bracket with x gives the next power.
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append the dual of the derivative of dexp_{(r),x} v with respect to x, applied to M.
+        """Append the vector R*_(r)(x, v) M, defined in the docstring of this module.
 
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is the
         sum over i < r of ad*_{z_i} (ad*_x)^i M, with z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!.
@@ -104,8 +104,8 @@ class _Step(ExpandedStep):
         # Let w_ki = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is
         # -sum_{i<k} ad_x^i ad_{w_ki} d. The dual of this derivative maps a covector M to
         # sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. In dexp_{(r),x} v, the term ad_x^k v has the factor 1/(k+1)!.
-        # For each i, the vectors -w_ki/(k+1)! with k > i are added before the bracket with (ad*_x)^i M. Their
-        # sum is z_i. The result then needs r brackets of this kind instead of r (r + 1)/2.
+        # For each i, the sum z_i of the vectors -w_ki/(k+1)! over k > i is computed first. One bracket of z_i
+        # with (ad*_x)^i M is then sufficient. This gives r brackets instead of r (r + 1)/2.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -115,12 +115,12 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation for M_i (see the docstring of this module) contains the series dexp*_{(r),X_i} M_i. Its
-        # term k = 0 is M_i. The other terms, with the opposite sign, are ``corrections``.
+        # The equation for M_i (see the docstring of this module) contains the series dexp*_{(r),X_i} M_i. The
+        # term k = 0 of the series is M_i. ``corrections`` contains all other terms, multiplied by -1.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # ``factor`` multiplies the terms with the force and the slope of stage j. It contains a_ji,
-            # because X_j depends on v_i through the term h a_ji v_i.
+            # ``factor`` is the coefficient of the force and of the slope of stage j. The exponent X_j depends
+            # on h a_ji v_i, so ``factor`` contains a_ji.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -141,7 +141,7 @@ def _rest(powers: list[Var]) -> Terms:
 
     ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The term k = 0 is omitted. It is v itself, and the caller computes v from the other terms.
+    # The caller solves an equation for the term k = 0, so this term is omitted.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 
