@@ -19,8 +19,9 @@ No emitted file may have the name of one of these headers and modules.
 def default_prefix(scene: Problem, method: Method) -> str:
     """Return the prefix SCENE_FAMILY_TABLEAU_ of the names in an emitted module.
 
-    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_. A cut-off is
-    appended to the name of the family, as in ``free_rigid_body_rkmk2_rk4_``.
+    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_. If the method
+    has a cut-off (:attr:`codegen.method.Method.cutoff`), this number follows the name of the family. An
+    example is ``free_rigid_body_rkmk2_rk4_``.
     """
     family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name
@@ -49,8 +50,7 @@ def prefix_of(name: str, hint: str = "") -> str:
     module = name.rstrip("_")
     if keyword.iskeyword(module) or module in HEADERS:
         raise InputError(
-            f"the prefix {name!r} is a keyword of Python, or the name of a header or module that emitted "
-            "code includes",
+            f"the prefix {name!r} is a Python keyword, or the name of an included header or imported module",
             where="--prefix",
             expected="another name",
         )

@@ -96,12 +96,12 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A path at which the folder differs from the expected files, and the kind of difference.
+    """One difference between the folder and the expected files: the path of a file, and one of these kinds.
 
-    - ``missing``: the folder does not contain an expected file.
-    - ``different``: the file has another content than expected.
-    - ``stale``: the file belongs to an emitted module that the list does not contain.
-    - ``unknown``: the file belongs to no emitted module. The function :func:`write` does not remove it.
+    - ``missing``: the folder does not contain this expected file.
+    - ``different``: this expected file has a different content in the folder.
+    - ``stale``: the file was emitted earlier, but it is no longer expected.
+    - ``unknown``: the file was not emitted. The function :func:`write` does not remove this file.
     """
 
     path: str

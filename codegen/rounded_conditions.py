@@ -62,7 +62,7 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
         except ZeroDivisionError:
             return None
         largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
-    # The conversion of a Fraction to a float rounds only once, to the nearest double.
+    # The conversion of a Fraction to a float gives the nearest double.
     return float(largest)
 
 

@@ -52,7 +52,7 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """The number of operations that the pass removed, for each name of an operation in reports."""
-        # The difference of two Counters omits negative numbers: operations that a pass adds are no saving.
+        # The difference of two Counters contains only positive numbers, so added operations are omitted.
         return _nouns(self.earlier) - _nouns(self.program)
 
 

@@ -13,9 +13,9 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment of a program.
 
-    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. The rule may
-    append new assignments by ``emit`` and return their targets. If the rule returns variables that exist
-    already, the assignment is removed.
+    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. To keep or
+    replace the assignment, a rule appends assignments with ``emit`` and returns their targets. To remove the
+    assignment, a rule returns existing variables.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -28,9 +28,9 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Uses are counted in the old program, because assignments that a rule appends must not count.
+        # Only the old program is searched for uses. Assignments that a rule appends are not included.
         self.uses = uses(self.program)
-        # New names must also differ from the names in later statements.
+        # The name of a new variable must differ from all names in the program.
         self.builder.taken = {v.name for v in defined(self.program)}
         body = tuple(s for statement in self.program.body for s in self._statement(statement))
         outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
@@ -58,13 +58,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # The initial values of the unknowns are computed before the block. Therefore their variables are
-        # replaced before the body is rewritten.
+        # The variables in ``starts`` are computed before the block, so they are replaced before the body.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # The body computes the images and residuals. Therefore their variables are replaced after the body is
-        # rewritten.
+        # The body computes ``images`` and ``residuals``, so these variables are replaced after the body.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -98,7 +96,7 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # Starts, images and residuals of a block must be kept, so they count as uses.
+            # A block reads its starts, images and residuals.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

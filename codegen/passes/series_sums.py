@@ -1,12 +1,12 @@
-"""Sums of functions of ad_x in nested form. The nested form of a sum needs only two brackets.
+"""Sums of functions of ad_x in nested form.
 
-The pass is exact. The sum is sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k with numbers f_k, b_k and c_k. It
-equals A + ad_x (B + ad_x C), where A, B and C are the sums over k of f_k v_k, f_k b_k v_k and f_k c_k v_k.
-Without nesting, each term needs two brackets. For example, the momentum in equation (3.19) of Marthinsen's
-thesis is such a sum.
+The pass is exact. On some groups, each term of the sum is f (1 + b ad_x + c ad_x^2) v with numbers f, b and
+c. Let A, B and C be the sums of f v, f b v and f c v over all terms. Then the sum is A + ad_x (B + ad_x C).
+This nested form needs only two brackets. Without nesting, each term needs two brackets. An example is the
+momentum in equation (3.19) of Marthinsen's thesis.
 
-A group with closed forms computes the sum by ``series_sum``. If some v_k are sums themselves, they may be
-replaced by their terms in A, B and C.
+The method ``series_sum`` of the group computes the sum. If a vector v is itself a sum, v may be replaced by
+the terms of that sum.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        # The nested form needs closed forms 1 + b ad_x + c ad_x^2 of the group.
+        # Only groups with closed forms of functions of ad_x have the method ``series_sum``.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
@@ -75,9 +75,9 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return the groups of terms for nested sums, each with at least two terms.
+        """Return the terms of a sum in groups of at least two terms. Each group can become one nested sum.
 
-        The terms of a group are functions of ad_y, where y is a multiple of a common exponent x.
+        In one group, all arguments x of the terms c W(ad_x) v are multiples of one element.
         """
         groups: list[list[Term]] = []
         for c, v in assign.terms:
@@ -88,8 +88,8 @@ class SeriesSums:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # If x = s y for a number s, then ad_x = s ad_y. So a function of ad_x is also a function of
-                # ad_y.
+                # Let y be the argument of the first term in the group. If x = s y for a number s, then
+                # ad_x = s ad_y. A function of ad_x is then also a function of ad_y.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
@@ -101,10 +101,7 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of the sum of the terms ``members``. Each term is a multiple of a value f(ad_y) v.
-
-        Each y is a multiple of one element x, so each f(ad_y) is a function of ad_x.
-        """
+        """Return the sum of the terms ``members``, which form one group (:meth:`_groups`)."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -120,13 +117,13 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum in which terms that are sums themselves are expanded.
+        """Return a sum with every inner sum replaced by the terms of the inner sum.
 
-        If the expanded sum has more terms, ``terms`` is returned.
+        If the result would have more terms than ``terms``, return ``terms``.
         """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # A sum among the terms is expanded into its own terms, which shortens the critical path.
+            # If v is a sum, its terms replace v. Fewer additions then depend on each other.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -150,9 +147,8 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
-    """Return a sum of multiples of vectors. Terms that need no product are added first."""
+    """Return a sum of multiples of vectors. Vectors with the coefficient 1 are added first."""
     total: tuple[Value, ...] | None = None
-    # The terms with coefficient one come first, because they need no product.
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

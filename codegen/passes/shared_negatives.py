@@ -1,7 +1,7 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
 The pass is exact. It is useful for commutator-free and Crouch-Grossman methods, which use both exp(x) and
-dexp*_{-x}. Other passes would multiply the factor -1 into a sum, so this pass is the last of all.
+dexp*_{-x}. This pass is the last one, because other passes would multiply the factor -1 into the sum again.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program in which the negative of an earlier sum is computed from that sum.
+    """Return the program in which a sum is computed as the negative of an earlier sum, if possible.
 
-    Both sums must be in the same block, or outside all blocks.
+    Each block is searched separately, and so are the statements outside all blocks.
     """
     outside: dict[Terms, Var] = {}
     body = [
@@ -38,7 +38,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # Among equal sums the first is recorded, so that the sum is defined before it is used.
+                # If several sums are equal, ``known`` keeps the first. It is defined before all later sums.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

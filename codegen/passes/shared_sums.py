@@ -1,8 +1,8 @@
-"""Apply a linear map L once, if several sums contain the same linear combination of values L(x_k).
+"""Apply a linear map L only once, if several sums contain the same linear combination of values L(x_k).
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed numbers a_k.
 This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not
-change the terms L(x_k), because more than one sum reads L(x_k).
+change these terms. It requires that only one sum reads L(x_k).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ Key = tuple[Operation, tuple[Var, ...]]
 Share = tuple[tuple[Var, Coefficient], ...]
 """A linear combination of values L(x_k) of one linear map L, as pairs (value, coefficient).
 
-The terms are sorted by their power of h and then by name. The combination is scaled such that the first
-coefficient is one.
+The pairs are sorted by the power of h in the coefficient, and then by the name of the value. The combination
+is scaled such that the first coefficient is one.
 """
 
 
@@ -35,8 +35,8 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The default arguments store ``wanted`` and ``values`` of this round, because both names refer to
-            # other objects in the next round.
+            # Each round of the loop creates new objects ``wanted`` and ``values``. The default arguments
+            # store the objects of this round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -57,7 +57,7 @@ def _rule(
         if share not in wanted:
             continue
         members = dict(share)
-        # The map is emitted before the first sum that reads it.
+        # L(sum_k a_k x_k) is emitted before the first sum that contains it.
         if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
@@ -72,12 +72,12 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    The map L is then applied once for each combination, and no longer once for each value L(x_k). This saves
-    work only if there are fewer combinations than values. A combination of a single value is not returned.
+    Let n different values L(x_k) occur in m different combinations. The pass replaces n applications of L by
+    m applications. The combinations are returned only if m < n. Combinations of a single value are omitted.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched, because a map in a block is evaluated in every sweep.
+        # Only blocks are searched, because the body of a block is evaluated many times in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -93,10 +93,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return the linear combinations of values L(x_k) in a sum, one for each linear map L.
+    """Return the parts of a sum that consist of values L(x_k), one part for each linear map L.
 
-    The sum contains a multiple of each linear combination (:data:`Share`). The dictionary maps the linear
-    combination to the factor of this multiple.
+    Each part is a factor times a linear combination (:data:`Share`). The result maps the linear combination
+    to the factor.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

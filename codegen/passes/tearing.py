@@ -1,7 +1,8 @@
 """Tearing: unknowns that can be computed directly from the other unknowns are removed with their equations.
 
-The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
-the body then has no cycle. Momenta and forces are replaced first, so that velocities remain unknowns.
+The pass is exact. The image of an unknown is the right-hand side of its fixed-point equation. If the image
+does not depend on the unknown itself, the pass replaces the unknown by its image. The pass begins with
+momenta and forces, so that velocities remain unknowns.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which an unknown is replaced by its image if this creates no cycle."""
+    """Return the program without the unknowns that can be computed from other unknowns."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -26,8 +27,8 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities are tried last, so that they remain unknowns. The start values of unknowns are
-        # extrapolated from earlier steps, and this is most accurate for velocities.
+        # Velocities come last in this loop, so that they remain unknowns. The start values of unknowns are
+        # extrapolated from earlier steps. The extrapolation is most accurate for velocities.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -46,8 +47,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
     The result is None if the unknown cannot be replaced.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The only unknown of a block cannot be replaced, because its image depends on the unknown itself. An
-    # unknown whose image is an unknown is not replaced either.
+    # The only unknown of a block must remain. An unknown also remains if its image is an unknown.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -55,15 +55,14 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # ``body`` is None if the new assignments have a cycle. Then the image depends on the unknown itself, and
-    # the unknown is needed.
+    # If the image depends on the unknown itself, the new assignments have a cycle, and ``body`` is None.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # If another unknown has the removed unknown as its image, this image becomes ``image``.
+    # The removed unknown may be the image of another unknown, so it is also replaced in ``images``.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
@@ -74,15 +73,15 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state[k]`` is False while the arguments of assignment k are visited, and True after that. If the visit
-    # returns to an assignment whose state is False, there is a cycle.
+    # ``state[k]`` is False from the first call of ``place(k)`` until assignment k is in ``result``. If
+    # ``place(k)`` is called again during this time, there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # The assignments are visited in their order, so a body that is already sorted does not change.
+        # If ``body`` is already sorted, all these arguments are already in ``result``.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

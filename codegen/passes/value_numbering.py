@@ -21,19 +21,18 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are sorted by first appearance and not by name, because passes introduce new names, and these
-        # would change the order.
+        # The terms of a sum are sorted by the first appearance of their values. An order by name would change
+        # with the new names that passes introduce.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The key contains the kind of the result, because the zeros of the algebra and its dual are
-        # different.
+        # Zero in the algebra and zero in the dual are different values, so the key contains the kind.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first computation of a value is kept. It precedes all readers of the value.
+            # The first assignment of a value is kept. All statements that read the value come later.
             known[key] = rewriter.emit(assign)
         return known[key]
 

@@ -16,7 +16,7 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # A public function that a private function calls counts as private.
+    # ``called`` contains the functions that private functions call. They are treated as private.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
@@ -29,8 +29,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # A compiler without optimisation may give each call its own stack space for arguments. Therefore
-            # the arguments of all calls are added.
+            # Without optimisation, a compiler may give each call its own stack space for arguments. Therefore
+            # ``passed`` is the sum over all calls.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
@@ -46,5 +46,5 @@ def _size(unit: Unit, name: Term) -> int:
     """Return the number of scalars in one entry of an array. The entry may be a record."""
     if name.kind is not Kind.RECORD:
         return 1
-    # The product of an empty shape is 1, so a field that is a single value counts once.
+    # A field with an empty shape is a single number, and the product of an empty shape is 1.
     return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

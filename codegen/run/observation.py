@@ -64,7 +64,7 @@ CLOSE = 4
 """A factor in the tolerance for the time of an event.
 
 In a step from the time t to the time t', the interval that contains an event is shortened until its length is
-at most 2 CLOSE u max(|t|, |t'|), where u is the unit roundoff.
+at most 2 CLOSE u max(|t|, |t'|, |t' - t|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
@@ -92,9 +92,9 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
-        # ``signs`` contains signs of the event functions. Three arrays contain their values: ``values`` at
-        # the lower end of the searched interval, ``ahead`` at its upper end, and ``measured`` at the time
-        # that was tried last.
+        # ``signs`` contains the signs of the event functions. Three arrays contain their values: ``values``
+        # at the lower end of the searched interval, ``ahead`` at its upper end, and ``measured`` at the time
+        # of the latest evaluation.
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
@@ -102,7 +102,7 @@ class Observation:
 
     @property
     def length(self) -> Term:
-        """The size of the step."""
+        """The step size. It is negative in a run backwards in time."""
         return self.following - self.now
 
     @property
@@ -128,18 +128,17 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions at the time where the search
-        continues."""
+        """The arrays that keep the signs and values of the event functions from step to step."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
-        """Return the statements at the beginning of a run. They test the output times, write the state at the
-        initial time, and evaluate the event functions."""
+        """Return the statements at the beginning of a run. These statements check the output times, write
+        the state at the initial time, and evaluate the event functions."""
         ordered = flag("ordered")
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
         same = negated(either(self.times[place] < now, self.times[place] > now))
-        # An earlier failure has precedence over wrong output times.
+        # The status of an earlier failure is kept, even if the output times are wrong.
         checked = both(STATUS.equals(code(OK)), negated(ordered))
         # Several output times may equal the initial time, so this is a loop.
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
@@ -161,8 +160,8 @@ class Observation:
     def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
         """Return the call that observes the step from ``state`` to ``trial``.
 
-        If an event ends the run, the status is EVENT, ``trial`` is the state at this event, and ``stop`` is
-        its time.
+        If an event ends the run, the call returns EVENT. Then ``trial`` is the state at this event, and
+        ``stop`` is the time of this event.
         """
         passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
@@ -229,7 +228,7 @@ class Observation:
         )
 
     def signed(self) -> tuple[Statement, ...]:
-        """Return the statements that store the signs of the values. The sign of zero is zero."""
+        """Return the statements that store the sign (1, -1 or 0) of each event function."""
         i = count("i")
         value = self.measured[i]
         sign = select(value > 0.0, number(1.0), select(value < 0.0, number(-1.0), number(0.0)))
@@ -237,8 +236,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # A stored sign is zero if the value was zero at the beginning of the run, or at a recorded event. The
-        # change from this zero to a nonzero value is no event.
+        # An event function may be zero at the beginning of a run or at an event. Its sign is then stored as
+        # zero, and the next nonzero value is no event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -275,9 +274,9 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # ``width`` is a bound for the rounding errors of times. Its unit is the length of the step.
+            # ``width`` is a bound for the rounding errors of times, divided by the length of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # Near the time 0 this bound is raised to the rounding errors of ``low`` and ``high``.
+            # It must not be smaller than a bound for the rounding errors of ``low`` and ``high``.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -302,13 +301,12 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose ``middle``, the time of the next evaluation in the interval."""
+        """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
-        # For each function with a change of sign, the secant through its values at both ends has a zero. The
-        # earliest of these zeros is chosen. Every third time, the middle of the interval is chosen.
+        # If a function changes its sign in the interval, the secant of the function has a zero there. The
+        # earliest of these zeros is chosen. In every third iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
-        # The weighted values a and b have opposite signs, or b is zero. Therefore a/(a - b) is between 0 and
-        # 1.
+        # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
             If(estimate < self.middle, (Assign(self.middle, estimate),)),
@@ -316,7 +314,7 @@ class Observation:
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
-            # Only functions with different signs at the two ends of the interval give a guess.
+            # Only functions that change their sign in the interval are used.
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
             # The guess is at least ``width`` away from both ends. If a zero is very close to one end, the
@@ -422,7 +420,7 @@ class Observation:
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
             *self.signed(),
-            # After an event inside a part, ``target`` does not change, and the rest of the part is searched.
+            # If the search has reached the end of a part, ``target`` becomes the end of the next part.
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
@@ -432,7 +430,7 @@ class Observation:
         """Return the statements that prepare a continuous extension. Without an extension there are none."""
         if self.dense is None:
             return ()
-        # The array is set to zero, because a compiler may warn that it could be read before it is filled.
+        # Without these zeros, a compiler may warn that the array has no values.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
@@ -459,7 +457,7 @@ class Observation:
         passed = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         search: tuple[Statement, ...] = (Assign(stop, self.following),)
         if self.events:
-            # If an event ends the run, the search sets ``stop`` to its time.
+            # If an event ends the run, the function EVENTS sets ``stop`` to the time of this event.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
         # The run may go forwards or backwards in time. Output times after ``stop`` belong to later steps.
         beyond = select(self.following > self.now, time > stop, time < stop)
@@ -477,7 +475,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The loop below needs the status OK. The status after the search, OK or EVENT, is restored later.
+            # The loop runs only while the status is OK. The result of the search is restored after the loop.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),
