@@ -23,24 +23,24 @@ class Place:
 
     @property
     def term(self) -> Term:
-        """The term for the block, which is a part of the array called ``array``."""
-        # The stopping rule computes the largest entry of a block, so it needs the block as one array.
+        """The term for the block, as a slice of its array."""
+        # The stopping rule computes the largest entry of a block, so the block must be a single term.
         return real(self.array, self.whole).part(self.start, self.size)
 
 
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the position of each block of a kernel's state.
 
-    If the kernel has a variation (a tangent vector at the state), the variation is the last block. It is
-    stored in the separate array ``vector``.
+    A kernel may have a variation (a tangent vector at the state). The variation is the last block, and its
+    array is ``vector``.
     """
-    # The variation is not in the array of the state, so it is not counted here.
+    # ``whole`` is the length of the array ``state``, which does not contain the variation.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # After the variation, ``start`` is not read again, because the variation is the last block.
+        # No block follows the variation, so no block needs the sum after the variation.
         start += n
     return tuple(result)

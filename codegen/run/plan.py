@@ -1,4 +1,4 @@
-"""Data for building the emitted functions of a kernel, for example their common arguments."""
+"""Common data of the emitted functions of a kernel, for example their arguments."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of one of these types has the name of its type."""
+"""Two record types. Each name is used for the type, and for the argument with this type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -28,14 +28,13 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel (the arithmetic of a step) and the floating-point format of the emitted module.
 
-    If the equations of a step do not converge, the step is repeated by continuation in the step size.
-    ``tries`` is the largest number of attempts of the continuation. If it is None, ``Start.TRIES`` is used.
+    If the equations of a step do not converge, a continuation in the step size makes further attempts.
+    ``tries`` is the largest number of these attempts. If ``tries`` is None, the limit is ``Start.TRIES``.
     """
 
     kernel: Kernel
     format: Precision
-    # When solvers are compared in trials, ``tries`` is 1. With more attempts, the continuation could hide
-    # that a solver fails.
+    # In trials that compare solvers, ``tries`` is 1. More attempts could hide the failure of a solver.
     tries: int | None = None
 
     @cached_property
@@ -56,8 +55,7 @@ class Plan:
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
-        # The result is cached, because nearly every property below reads it, and computing it walks through
-        # the whole kernel.
+        # The search visits the whole kernel, so the result is cached.
         return self.kernel.used_scalars()
 
     @property
@@ -68,7 +66,7 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
-        # The time, the step size and the durations of deferred flows are separate arguments.
+        # These four names denote times and durations, which are separate arguments of the functions.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
@@ -78,8 +76,8 @@ class Plan:
 
     @property
     def newton(self) -> bool:
-        """True if a loop uses Newton's method, which stores its matrix for the next step."""
-        # Simplified Newton computes its matrix in each step and stores nothing for the next step.
+        """True if a loop of the kernel uses Newton's method (not simplified Newton)."""
+        # Newton's method stores its matrix for the next step. Simplified Newton stores nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
@@ -95,24 +93,24 @@ class Plan:
 
     @property
     def parts(self) -> int:
-        """The number of substeps of a step; 0 if there are none."""
+        """The number of substeps of a step (0 without substeps)."""
         return len(self.kernel.substeps)
 
     @property
     def memory(self) -> Term:
-        """The memory: the data that one step or substep stores for the next one."""
+        """The record with the data that a step or substep stores for the next step."""
         return record(MEMORY, MEMORY)
 
     @property
     def memories(self) -> Term:
-        """The memory of a step. If there are substeps, it is an array with one memory for each substep."""
+        """The memory of a step: one record, or an array with one record for each substep."""
         # Substeps have different lengths, so the solutions of one substep are bad initial guesses for the
         # next substep. A substep reads only its own solutions from earlier steps.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
     def statistics(self) -> Term:
-        """The argument for the record with the statistics of a run. The caller may omit it."""
+        """The optional argument for the record with the statistics of a run."""
         return record(STATISTICS, STATISTICS, optional=True)
 
     @property
@@ -136,25 +134,23 @@ class Plan:
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
         """Return the arguments for the time and the step size.
 
-        The time is omitted if the step does not depend on time.
+        If the step does not depend on time, only the step size is returned.
         """
-        # A C compiler would warn about an unused argument, and each step would compute a time that is never
-        # read.
+        # An unused argument for the time would cause a compiler warning and needless arithmetic.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return a tuple with the argument for run-time inputs. It is empty if the kernel has no inputs."""
+        """Return a tuple with the argument for run-time inputs. Without inputs, the tuple is empty."""
         return (inputs,) if self.kernel.inputs else ()
 
     @property
     def held(self) -> tuple[Term, ...]:
-        """A tuple with the array of inputs that are constant during a step, or an empty tuple."""
+        """A tuple with the array of inputs, which are constant during a step. Without inputs, it is empty."""
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the terms for those names in ``scalars`` that the statements of the kernel read."""
-        # The scheduled statements are searched, because scheduling may remove the only statement that reads a
-        # scalar.
+        # Scheduling may remove statements, so only the remaining statements are searched.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

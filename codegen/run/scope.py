@@ -1,12 +1,13 @@
 """Choose where a target language such as C declares each scalar variable.
 
 A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
-exception: if several blocks side by side each assign the variable before they read it, each of these blocks
-declares the variable.
+exception. Suppose that all uses are in several inner blocks, and that each block assigns the variable before
+it reads the variable. Then each of these blocks declares the variable.
 
 Let B be the block that declares the variable, and let S be the first statement of B that mentions the
 variable. If S assigns only this variable and does not read it, S also declares it, as in ``double x = 1.0;``.
-Otherwise a separate declaration precedes S. A variable that is assigned only once is declared as constant.
+Otherwise a separate declaration precedes S. If S declares the variable, and no other statement of B assigns
+the variable, the variable is constant.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The declarations of a function, in two dictionaries. Their keys are ``id(statement)``.
+    """The declarations of a function, in two dictionaries. The keys of both are ``id(statement)``.
 
     - The value in ``before`` is a list of the variables that are declared before the statement, each with its
       identifier.
-    - The value in ``by`` is a dictionary of the variables that the statement itself declares. It maps each
-      identifier to True if the variable is constant, and to False otherwise.
+    - The value in ``by`` is a dictionary of the variables that the statement itself declares. For each
+      identifier, the dictionary contains True if the variable is constant, and False otherwise.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -54,7 +55,7 @@ def declarations(function: Function, identifiers: Identifiers) -> Declarations:
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return a dictionary from identifiers to the scalars that a function assigns, except its parameters.
+    """Return the scalars that a function assigns, without its parameters. The keys are identifiers.
 
     The scalars are in the order of their first assignment.
     """
@@ -64,7 +65,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
         for statement in body:
             if isinstance(statement, Assign | Call):
                 for target in assigned(statement):
-                    # Statements of the type Array declare arrays and records, so only scalars are collected.
+                    # Arrays and records have declarations (Array) in the body. Scalars have none.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
             # Some variables are assigned only in inner blocks, so inner blocks are visited too.
@@ -83,8 +84,7 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # The results for a statement are cached, because they are needed for many variables. The keys are
-        # ``id(statement)``, because equal statements at different places may be in different blocks.
+        # These dictionaries cache the results for each statement. The keys are ``id(statement)``.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -106,15 +106,13 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # A variable is declared in the innermost block that contains all its uses. The small scope shows
-            # readers and compilers where the value is needed.
+            # A small scope makes the emitted code easier to read, so inner blocks are preferred.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # The variables in ``inside`` are declared in inner blocks. This method is called again for these
-        # blocks.
+        # Recursive calls declare the variables of inner blocks.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:
@@ -132,8 +130,8 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If a block reads the variable before assigning it, another block has assigned the value. The
-        # variable must then be declared in ``body``, which contains both blocks.
+        # An inner block may read a value that another inner block assigned. Both blocks then need the same
+        # variable, so ``body`` must declare the variable.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -151,13 +149,13 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a branch may be skipped, and so may the body of a While whose test comes first.
+            # A loop with ``at_least_once`` executes its body before the first test. Branches and other While
+            # loops may skip their bodies.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so the statements after the loop must also assign the
-            # variable before they read it.
+            # A For loop may have no iterations, so the statements after the loop are tested, too.
             looped = True
         return looped
 
@@ -167,8 +165,7 @@ class _Scopes:
         ``places`` contains the indices of the statements that mention the variable.
         """
         first = body[places[0]]
-        # Assignments in inner blocks are counted too, because a variable that an inner block assigns again is
-        # not constant.
+        # Assignments in inner blocks are counted, too. A variable with two assignments is not constant.
         times = sum(self.assignments(body[k])[name] for k in places)
         # A statement such as ``x = x + 1`` cannot declare ``x``, because it also reads ``x``.
         direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0
@@ -181,7 +178,7 @@ class _Scopes:
     def assignments(self, statement: Statement) -> Counter[str]:
         """Return the number of assignments to each variable in a statement and its inner blocks."""
         if id(statement) not in self.counts:
-            # The declaration of an array is not counted, because it assigns no scalar.
+            # The name of an array is no scalar, so the declaration of an array is not counted.
             targets = () if isinstance(statement, Array) else assigned(statement)
             count = Counter(self.identifiers.variable(t) for t in targets if t.op == "name")
             for block in blocks(statement):
@@ -191,7 +188,7 @@ class _Scopes:
         return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
-        """Return the variables that a statement itself mentions. Its inner blocks are ignored."""
+        """Return the variables that a statement mentions outside its inner blocks."""
         if id(statement) not in self.known_own:
             read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
             self.known_own[id(statement)] = read

@@ -1,19 +1,21 @@
 """The emitted functions of a lattice step that is a composition of flows.
 
-The vector field of the problem is a sum of parts, and the flow of each part is computed exactly. A part acts
-on single sites, or on pairs of neighbours along one axis of the lattice. The pairs form two sets: pairs whose
-first site has an even index, and pairs whose first site has an odd index. No two pairs of a set have a common
-site.
+The vector field of the problem is a sum of parts, and the flow of each part is computed exactly. Most flows
+change single sites, or pairs of neighbours along one axis of the lattice. The pairs form two sets. In one set
+the first site of each pair has an even index, and in the other set an odd index. No two pairs of a set have a
+common site.
 
-The functions of part number K have K in their names. ``flow_K`` contains a loop over consecutive sites, or
-over pairs of one of the two sets. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set. If
-the part calls sines or Stumpff functions, it may also have ``whole_K``. In this case ``flow_K`` computes
-these functions only for arguments near zero, and ``whole_K`` computes them for all arguments
-(:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also has ``pair_K``. This
-function computes the pair of the last and the first site of a row.
+Part number K has several functions:
 
-A kick is a flow that reads neighbours and changes only the momenta of the new state, in place. Its functions
-are those of a sweep over all sites (:mod:`codegen.run.sites`).
+- ``flow_K`` is a loop over consecutive sites, or over pairs of one set.
+- ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set.
+- ``whole_K`` exists only for parts with sines, cosines or Stumpff functions. In such a part, ``flow_K``
+  computes these functions only for arguments near zero. ``whole_K`` computes them for all arguments.
+- ``pair_K`` exists in a periodic lattice if the pairs are along the last axis. The function computes the pair
+  of the last and the first site of a row.
+
+A kick is a flow that reads neighbours and changes only momenta, in place. A kick has the same functions as a
+sweep over all sites (:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -61,17 +63,16 @@ _NEAR, _START, _COLOUR, _PAIR, _ROW, _OTHER = (
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method that composes flows. Each comes after the functions that it calls."""
+    """Return the functions of a method that composes flows. Callees come before their callers."""
     parts = [_part(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps)]
     listed = [f for part in parts for f in part.functions()]
     return complete(plan, step, [*listed, _advance(plan, step, parts)])
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # The axis of a sweep over single sites is OWN. Such a sweep is a kick if it reads neighbours.
+    # In a sweep over single sites, the axis is OWN. If the sweep reads neighbours, the sweep is a kick.
     if sweep.axis == OWN and sweep.neighbours:
-        # A kick does not test whether its results are finite, because the last flow of a step tests the whole
-        # new state.
+        # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)
 
@@ -91,7 +92,7 @@ class _Kick:
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
-        # A kick may depend on the time. It is evaluated at ``t`` + ``flow.elapsed`` * ``h``.
+        # If the kick depends on time, ``moment`` is the time at which the kick is evaluated.
         moment = (
             TIME
             if flow.elapsed.is_zero
@@ -122,16 +123,15 @@ class _Part:
 
     @property
     def special(self) -> bool:
-        """True if the flow needs both functions, ``flow_K`` and ``whole_K``.
+        """True if the flow has the function ``whole_K`` in addition to ``flow_K``.
 
-        This is the case if the flow calls sines, cosines or Stumpff functions, and if all functions that it
-        calls can be computed without branches.
+        The flow must call sines, cosines or Stumpff functions, but no other functions with branches.
         """
         _, inside, _ = split(self.own.kernel, set())
         # The functions ``sqrt``, ``fabs`` and ``choose`` are always computed without branches.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A single call of a function with branches prevents vector instructions in the whole loop. Variants
-        # of sines without branches would then save no time, so a second function is not needed.
+        # A single call of a function with branches prevents vector instructions in the whole loop. In such a
+        # loop, sines without branches save no time.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -142,18 +142,18 @@ class _Part:
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The scalars that the flow reads: its duration and parameters of the problem."""
+        """The duration of the flow and the parameters of the problem, if the flow reads them."""
         read = symbols_of(self.own.kernel)
         return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
 
     @property
     def arrays(self) -> tuple[Term, ...]:
-        """The arrays that the flow reads or changes. They are arguments of its functions.
+        """The arrays that the flow reads or changes, as arguments of the emitted functions.
 
-        A flow of pairs changes the array of the new state in place. A flow of single sites reads its first
-        array and writes its second array. Both arguments may be the same array.
+        A flow of pairs changes the new state in place. A flow of single sites reads the first array and
+        writes the second array. A call may pass the same array twice.
         """
-        # With two arrays, the first flow of a step can read the old state without a copy.
+        # The first flow of a step reads the old state and writes the new state, so no state is copied.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
@@ -165,8 +165,11 @@ class _Part:
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
-        """Return an entry of a row: at the site itself if ``neighbour`` is OWN, else at the other site of the
-        pair."""
+        """Return an entry of a row.
+
+        If ``neighbour`` is OWN, the entry belongs to the site itself. Otherwise the entry belongs to the
+        other site of the pair.
+        """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
         return (
@@ -179,13 +182,13 @@ class _Part:
         number of the part.
 
         The function contains a loop over consecutive sites, or over pairs of neighbours. If ``near`` is True,
-        the loop computes sines and Stumpff functions without branches, and only for arguments near zero.
+        the loop calls sines and Stumpff functions without branches, which accept only small arguments.
         """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # PLACE is the index of the first site of a pair. If the loop is strided, the second site is at
-            # PLACE + 1. Compilers use this constant distance to load both sites with one instruction.
+            # PLACE is the index of the first site of a pair. In a strided loop, the second site is the next
+            # site in memory, so compilers can load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
         # Only the functions for single sites test whether their results are finite. This is enough, because
@@ -194,7 +197,7 @@ class _Part:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # In a strided loop the second site of a pair follows its first site, so one start index is enough.
+        # In a strided loop, the two sites of a pair are adjacent in memory, so one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
@@ -207,8 +210,7 @@ class _Part:
         return [own(f"new {load.symbol}") for load in self.own.loads]
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
-        """Return the statements that apply this flow to one pair of sites, or to a single site if it changes
-        single sites."""
+        """Return the statements that apply this flow to one site or to one pair of sites."""
         # All entries of the site or pair are loaded before the first entry is stored, because the old and the
         # new state may be the same array.
         read = symbols_of(self.own.kernel)
@@ -218,13 +220,13 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The first ``size`` values belong to the site, and all further values to the other site of the
-            # pair.
+            # The first ``size`` values belong to the site. In a pair, all other values belong to the second
+            # site.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites, or to all even or all odd pairs.
+        """Return the call that applies the flow to all sites, or to one of the two sets of pairs.
 
         If ``first`` is True, a flow of single sites reads the old state and writes the new state. All other
         flows change the new state in place.
@@ -235,8 +237,8 @@ class _Part:
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each call overwrites BAD, the number of sites whose new state is not finite. The value after the
-        # last flow of a step determines the status.
+        # BAD is the number of sites whose new state is not finite. Each flow may overwrite BAD, because only
+        # the last flow of a step determines the status.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -258,9 +260,9 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return the call of ``flow_K``.
+        """Return the statements that call ``flow_K`` or ``whole_K``.
 
-        If the function ``whole_K`` exists too, the flag ``whole`` selects one of the two functions.
+        If ``whole_K`` exists and the argument ``whole`` is true, the statements call ``whole_K``.
         """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
@@ -269,7 +271,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites. It calls ``flow_K`` or ``whole_K``."""
+        """Return the function ``part_K`` for a flow of single sites."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors add to BAD, so the loop declares BAD as a sum (a reduction).
@@ -286,13 +288,13 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, no pair of colour 1 contains site 0, and the last site may have no partner. In a
-        # periodic lattice the number of sites along the axis is even, and every site has a partner.
+        # In an open lattice, the pairs of colour 1 begin at site 1, and the last site may have no partner. In
+        # a periodic lattice, the number of sites along the axis is even, and every site has a partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            # ``pairs`` does not include the pair of the last and the first site of a row.
+            # This is the number of pairs in a row, without the pair of the last and the first site.
             pairs = (COLUMNS - _COLOUR) // 2
             # In a lattice, different processors compute different rows. A chain has a single row, which is
             # divided into chunks for different processors.
@@ -301,13 +303,14 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # In a periodic row, the pair of the last and the first site belongs to the odd set.
+                # The last and the first site of a periodic row form a pair. The last site is the first site
+                # of this pair and has an odd index, so the pair has colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
-        # The innermost loop is built first. Along the axis of the pairs, the loop runs over pairs of rows
-        # instead of single rows.
+        # The loops are built from the innermost to the outermost. The loop along the axis of the pairs visits
+        # pairs of rows.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
@@ -339,7 +342,7 @@ class _Part:
 
 
 def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function:
-    """Return the function that makes one step. The function does not test the shape of the lattice."""
+    """Return the function that makes one step. The caller tests the shape of the lattice."""
     domain = ExprDomain()
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
