@@ -1,17 +1,19 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The equations are u = g(u), with the same number of unknowns at each site. In each step, the matrix 1 - g' is
-computed to first order in h and factored once. Its rows for site i have three blocks that may be non-zero:
-A_i, B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the right
-neighbour. Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to
-right. It overwrites the three blocks with D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only
-within a block D_i.
+The equations are u = g(u), with the same number of unknowns at each site. Newton's matrix is 1 - g', where g'
+is the Jacobian of g. In each step, the matrix is computed to first order in h and factored once. The
+equations of site i contain three blocks of the matrix. The blocks A_i, B_i and C_i multiply the unknowns of
+the left neighbour, of the site itself, and of the right neighbour.
 
-In a periodic chain the first and the last site are neighbours. The equations of all sites except the last are
-then solved for several right-hand sides. One right-hand side contains the residuals. The others are those
-columns of the matrix that multiply the unknowns of the last site. The equations of the last site then give
-its unknowns, and finally the unknowns of all other sites. The work and the memory of a step are proportional
-to the number of sites.
+Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
+D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. The products D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i overwrite A_i, B_i
+and C_i. Rows are exchanged only within a pivot block.
+
+In a periodic chain the first and the last site are neighbours. The columns of the matrix for the unknowns of
+the last site are called the border. The equations of all sites except the last are solved for several
+right-hand sides: the residuals and the columns of the border. The equations of the last site then give the
+unknowns of the last site. The unknowns of all other sites follow. The work and the memory of a step are
+proportional to the number of sites.
 """
 
 from __future__ import annotations
@@ -46,7 +48,8 @@ LEFT, OWN_BLOCK, RIGHT = range(3)
 class ChainSolver:
     """Builds the functions that solve the linear equations of Newton's method for one implicit block.
 
-    An implicit block is a set of equations of the step that are solved together. ``index`` is its number.
+    An implicit block is a set of equations of the step that are solved together. ``index`` is the number
+    of the block.
     """
 
     plan: Plan
@@ -79,9 +82,9 @@ class ChainSolver:
         return [self.linearise(), self.substitute(), self.factor(), self.correct()]
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and factor the matrix.
+        """Return the calls that compute and factor the matrix.
 
-        They also count the singular pivot blocks.
+        The second call also returns the number of singular pivot blocks.
         """
         linearise = self.linearise()
         return [
@@ -102,7 +105,7 @@ class ChainSolver:
 
     def cell(self, site: Term, block: int, i: Term, j: Term) -> Term:
         """Return entry (i, j) of a block of the matrix; ``block`` is LEFT, OWN_BLOCK or RIGHT."""
-        # The three blocks of a site are contiguous, because the elimination works on one site at a time.
+        # The three blocks of a site are stored together, because the elimination uses them together.
         n = self.n
         inner = i * n + j + block * n * n if block else i * n + j
         return self.work[_BASE + site * (3 * n * n) + inner]
@@ -110,25 +113,24 @@ class ChainSolver:
     def border(self, site: Term, i: Term, j: Term) -> Term:
         """Return the entry for equation i of a site in column j of the border.
 
-        Those columns of the matrix that multiply the unknowns of the last site are called the border.
+        The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
-        # Each column of the border is stored in the same way as the residuals. Therefore ``substitute``
-        # accepts both as right-hand sides.
+        # A column of the border is stored in the same way as the residuals. Therefore ``substitute`` can
+        # overwrite a column with a solution.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
         ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites
-        of an open chain. In a periodic chain it is the number of all sites except the last one.
+        in an open chain. In a periodic chain, ``_INNER`` does not include the last site.
         """
-        # A count has an unsigned type. A periodic chain has at least two sites, so ``SITES - 1`` is positive.
+        # A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return a loop over k that subtracts ``term`` from the variable ``_SUM``, or adds it if ``plus`` is
-        True."""
+        """Return a loop over k that subtracts ``term`` from ``_SUM``, or adds it if ``plus`` is True."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:
@@ -144,20 +146,19 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # Each symbol in ``newton.exists`` is a factor e, which is 1 if the neighbour exists, and 0 otherwise.
-        # The formulas contain g + e (x - g) in place of a value x of the neighbour, where g is the value for
-        # a missing neighbour.
+        # Each symbol in ``newton.exists`` is 1 if the neighbour exists, and 0 otherwise. The formulas use the
+        # symbol to choose between the value of the neighbour and the value for a missing neighbour.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
                 body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
         body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
-        # The kernel returns the entries in the order in which they are stored, so one index is enough.
+        # The kernel returns the entries of a site in the order in which they are stored.
         first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
         ]
-        # Each site writes only its own blocks, so several processors can share the sites.
+        # Each site writes only its own blocks, so several processors can execute the loop.
         loop = distributed(For(PLACE, SITES, (*body, *inside, first, *stores)))
         arrays = {x.row.array for x in newton.loads} | {"work"}
         scalars = tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
@@ -176,8 +177,8 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
-        # Forward substitution. After the factorisation, OWN_BLOCK contains the inverse P of the pivot block,
-        # and the block LEFT is already multiplied by P.
+        # In forward substitution, OWN_BLOCK is the inverse P of the pivot block. The block LEFT is already
+        # multiplied by P.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -189,11 +190,11 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site. Therefore the new components are first
-        # collected in ``value``.
+        # Each new component depends on all old components of the site. Therefore ``value`` stores the new
+        # components until all of them are computed.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # Back substitution reads components of the next site only, so each component can be overwritten
-        # immediately.
+        # In back substitution, a new component depends on its old value and on the next site. It does not
+        # depend on other components of the site, so it can overwrite its old value.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -217,8 +218,8 @@ class ChainSolver:
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
         # The elimination continues after a singular block. The caller tests the number of singular blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The product of the block LEFT and the block RIGHT of the previous site is subtracted from OWN_BLOCK.
-        # This block RIGHT is already multiplied by the inverse pivot block of the previous site.
+        # The pivot block is OWN_BLOCK minus LEFT times R. R is the block RIGHT of the previous site, and is
+        # already multiplied by the inverse pivot block of the previous site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -236,8 +237,8 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
-            # Each product for a column reads the old entries of the column. Therefore the new entries are
-            # first collected in ``column``.
+            # Each new entry depends on all old entries of its column. Therefore ``column`` stores the new
+            # entries until all of them are computed.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -247,8 +248,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The border contains copies of two blocks of the matrix. They are copied first, because the
-            # elimination overwrites the blocks.
+            # Two blocks of the matrix are copied to the border before the elimination overwrites them.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -262,14 +262,14 @@ class ChainSolver:
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
-        """Return the statements that fill the border: the coefficients of the unknowns of the last site."""
+        """Return the statements that copy blocks of the matrix to the border (:meth:`border`)."""
         # Two blocks multiply the unknowns of the last site: the block LEFT of site 0, and the block RIGHT of
-        # the site ``_LAST``, which comes before the last site.
+        # its left neighbour. ``_LAST`` is the index of the left neighbour.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, the site ``_LAST`` is site 0, too. The border at this site is then the
-            # sum of the two blocks, so each block is added and not assigned.
+            # In a chain of two sites, ``_LAST`` is 0, so both blocks belong to site 0. The border then
+            # contains their sum. Therefore each block is added to the border.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -278,15 +278,15 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        First the equations of all other sites are solved. Each column of the border (:meth:`border`) is one
-        right-hand side of these equations.
+        These statements first solve the equations of all other sites. Each column of the border
+        (:meth:`border`) is a right-hand side. The solution overwrites the column.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
         # The elimination does not change the blocks of the last site. The block RIGHT of the last site
-        # multiplies the solution at site 0. The block LEFT of the last site multiplies the solution at the
-        # site ``_LAST``, which comes before the last site.
+        # multiplies the solution at site 0. The block LEFT multiplies the solution at the left neighbour,
+        # which has the index ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -309,20 +309,19 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # These rows contained the residuals. Now they contain the solution, that is, the changes of the
-            # unknowns.
+            # The solution has overwritten the residuals. It contains the changes of the unknowns.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
-                # The maximum may lose a NaN, but the sum of the changes is NaN if a change is NaN.
+                # The maximum may ignore a NaN. The sum is NaN if a change is NaN.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # In a periodic chain this function itself reads entries of the matrix. In an open chain the
-            # variable _BASE would be unused, and C compilers would warn.
+            # Only the statements for a periodic chain use the variable ``_BASE``. In an open chain, C
+            # compilers would warn about an unused variable.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -338,14 +337,16 @@ class ChainSolver:
     def border_solved(self, first: Term) -> list[Statement]:
         """Return the statements that complete the solution in a periodic chain.
 
-        They compute the solution at the last site, and then correct the solution at all other sites.
+        These statements compute the solution at the last site, and then correct the solution at all other
+        sites.
         """
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
-        # The contributions of both neighbours are subtracted from the right-hand side of the last site.
+        # The equations of the last site contain the solution at both neighbours. These terms are subtracted
+        # from the right-hand side.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
@@ -357,8 +358,8 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # Let y be the solution at the last site. At each other site, the product of the border and y is
-        # subtracted from the solution.
+        # The border now contains the solutions for its columns. At each other site, the border times the
+        # solution at the last site is subtracted.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

@@ -1,11 +1,11 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
-One iteration consists of one or more sweeps over all sites. The iteration is repeated until the unknowns
-converge. In fixed-point iteration, the images of the unknowns are the right-hand sides of their equations.
-The last sweep of each iteration overwrites the unknowns with their images. For each site, this sweep also
-stores the largest change of an unknown and the largest absolute value of an unknown. The stopping rule
-(:mod:`codegen.run.stopping`) uses the maxima over all sites. Newton's method for chains
-(:mod:`codegen.run.site_newton`) stores residuals instead of images, and then corrects the unknowns.
+One iteration consists of one or more sweeps over all sites. Iterations are repeated until the unknowns
+converge. In fixed-point iteration, the image of an unknown is the right-hand side of its equation. The last
+sweep of each iteration overwrites the unknowns with their images. For each site, this sweep also stores the
+largest change and the largest absolute value of an unknown. The stopping rule (:mod:`codegen.run.stopping`)
+uses the maxima over all sites. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals
+instead of images, and then corrects the unknowns.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ from codegen.run.terms import (
 )
 
 MEASURE, REACH = "measured", "largest_state"
-"""The names of two functions, which compute maxima over all sites.
+"""The names of two functions that compute maxima over all sites.
 
-The first computes the maxima of the changes and of the unknowns. The second computes the largest absolute
-value in the states."""
+MEASURE computes the largest change and the largest absolute value of an unknown. REACH computes the largest
+absolute value in the states."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -53,17 +53,19 @@ class _Stopping(Stopping):
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
-        # The stopping rule reads the largest entry of the state only if the changes of the unknowns no longer
-        # decrease. The entry is computed only in this case.
+        # The stopping rule needs the largest absolute value in the states only if the changes of the unknowns
+        # no longer decrease. In all other cases it is not computed.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require that ``_REACH`` always has a value, so it is first set to zero. This zero is never
-        # read, because ``_REACH`` is read only if the changes of the unknowns no longer decrease.
+        # Compilers require that ``_REACH`` always has a value, so it is set to zero before the test. The
+        # stopping rule never uses this zero.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the test whether h times the largest change of an unknown is below the rounding errors of
-        the states."""
+        """Return the test for the case *lost* of the stopping rule.
+
+        In this case, h times the largest change of an unknown is below the rounding errors of the states.
+        """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
@@ -73,7 +75,7 @@ def loop_of(block: SiteBlock) -> Loop:
     The object contains the label and the unknowns of the block, but no equations.
     """
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # The starting value is never used. A loop without starting values would count as a loop with warm start.
+    # The starting value is never used. Without it, the stopping rule would assume a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -95,16 +97,16 @@ def iterated(
         Assign(CHANGE, MEASURED[0]),
         Assign(SCALE, MEASURED[1]),
         *rule.converged(),
-        # MEASURED[2] is finite only if all changes are finite.
+        # The third value is a sum. It is finite only if all changes are finite.
         rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]
-    # Newton's matrix is computed only once in a step, before the first iteration.
+    # Newton's matrix is computed once in each step, before the first iteration.
     prepared = [] if chain is None else [*chain.prepared(), If(unsolved(), (Return(code(SINGULAR)),))]
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
         *prepared,
-        # All blocks use the same array, so only the first block declares it.
+        # All blocks use the array MEASURED, so only the first block declares it.
         *([Array(MEASURED)] if block_number == 1 else []),
         *rule.before(),
         Assign(SWEEPS, whole(0)),
@@ -132,10 +134,10 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _measure(step: SiteStep) -> Function:
-    """Return the function that computes the largest change and the largest unknown of all sites."""
+    """Return the function that computes the three values of MEASURED in fixed-point iteration."""
     work = ARRAYS[WORK]
-    # Blocks of equations are solved one after another. Therefore all of them store the changes and the
-    # absolute values of their unknowns in the same two rows of the workspace.
+    # Blocks of equations are solved one after another. Therefore all blocks use the same two rows of the
+    # workspace: one for the changes and one for the absolute values of the unknowns.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
@@ -145,8 +147,8 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # The maximum may lose a NaN, but this sum is NaN if a change is not finite. Its terms are 0 or NaN,
-        # so it does not depend on the order of the additions.
+        # The maximum may ignore a NaN. The sum is NaN if a change is not finite, and 0 otherwise. It does not
+        # depend on the order of the additions.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )

@@ -30,14 +30,13 @@ def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
 def sum_of_terms() -> Function:
     """Return the function that computes the sum of all numbers in a row of the workspace.
 
-    The function overwrites the first number of each chunk of sites with the sum of the numbers of the chunk.
+    The sum of each chunk of sites overwrites the first number of the chunk.
     """
     work = ARRAYS[WORK]
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum of a chunk overwrites the first number of this chunk. The other processors do not read this
-        # number.
+        # The sum of a chunk overwrites the first number of this chunk. Other chunks do not read this number.
         Assign(work[_START + FIRST], _PART),
     )
     # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because

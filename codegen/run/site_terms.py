@@ -22,8 +22,7 @@ COLUMN is the index of a site in its row. ROW is the index of the first site of 
 the lattice."""
 
 STRIDE = count("stride")
-"""The number of array entries from the beginning of a row of the workspace to the beginning of the next
-row."""
+"""The distance between the beginnings of two consecutive rows of the workspace, in array entries."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
@@ -37,10 +36,10 @@ _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over consecutive sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. MANY_SITES was chosen from measurements in
-which all loops were executed in parallel (``benchmarks/lattice.py --threads 2``). On 1024 spins, a step of
-the method ``cf4`` takes the same time with one thread and with two threads. On 4096 spins, two threads need
-0.55 times as long as one thread."""
+For fewer than MANY_SITES sites, one processor executes all loops. MANY_SITES was chosen from measurements
+with ``benchmarks/lattice.py --threads 2``. In these measurements all loops were executed in parallel. On 1024
+spins, a step of the method ``cf4`` takes the same time with one thread and with two threads. On 4096 spins,
+two threads need 0.55 times as long as one thread."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -73,8 +72,10 @@ def shape_of(step: SiteStep) -> Term:
 
 
 MEASURED = real("measures", 3)
-"""The array for three values: the largest change of an unknown, the largest unknown, and the sum of all
-changes. Each value is taken over all sites."""
+"""The array for three values over all sites.
+
+They are the largest change of an unknown, the largest absolute value of an unknown, and a sum. The sum is
+finite only if all changes are finite."""
 
 
 def padded(sites: Count) -> Count:
@@ -88,7 +89,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # This number is a multiple of 16, plus 8. It is therefore an odd multiple of 8.
+    # A multiple of 16, plus 8, is an odd multiple of 8.
     return (sites + 7) // 16 * 16 + 8
 
 
@@ -104,8 +105,8 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    The workspace begins with ``step.size`` rows that contain a state. These rows have no number. The row
-    after them has the number 0.
+    The first ``step.size`` rows of the workspace contain a state. They are not numbered. The next row has the
+    number 0.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
@@ -124,16 +125,15 @@ def with_stride(function: Function) -> Function:
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return a test and an index for the neighbour at ``index + offset`` in a dimension with ``size`` sites.
 
-    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. The index is then that of the
-    neighbour. Outside this range, it is the index of the site itself in an open lattice. In a periodic
-    lattice, ``size`` is added or subtracted once, which is enough, because ``size`` is larger than every
-    offset. If the offset is zero, the test is None.
+    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. In this range, the returned
+    index is ``index + offset``. Outside the range, an open lattice has no neighbour, and ``index`` is
+    returned. In a periodic lattice, ``size`` is added or subtracted once. Once is enough, because ``size`` is
+    larger than every offset. If the offset is zero, the test is None.
     """
     if not offset:
         return None, index
     far = abs(offset)
-    # The test adds ``far`` to the index and does not subtract it from ``size``. This difference may be
-    # negative, but a count has an unsigned type.
+    # The test does not use ``size - far``, which may be negative, because the variables are unsigned.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -151,14 +151,13 @@ def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[State
     known = set(shared)
     arranged = arrange(kernel)
     for statement in arranged.statements:
-        # A loop in a kernel solves equations. On a lattice, repeated sweeps over all sites solve the
-        # equations, so the kernel of a single site contains no loop.
+        # The kernel of a site contains no loop, because repeated sweeps over all sites solve the equations.
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in known for term in reads(single)):
                 # The statement has the same result at all sites, so it is executed once before the loop.
                 before.append(single)
-                # Later statements that read only such results also have the same result at all sites.
+                # These results are now known to be the same at all sites.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

@@ -5,14 +5,15 @@ these numbers. Row k of an array contains component k of all sites. Within a row
 of a site changes fastest.
 
 A sweep evaluates one kernel at all sites. Sweep number K has three functions. ``sweep_K`` computes
-consecutive sites whose neighbours all exist. Compilers turn its loop, which has no branches, into vector
-instructions. ``site_K`` computes one site at the boundary. ``pass_K`` computes all sites by these functions.
+consecutive sites whose neighbours all exist. The loop in ``sweep_K`` has no branches, so compilers can use
+vector instructions. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` calls both
+functions and computes all sites.
 
 In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
-arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
-for all sites, because ``site_K`` accepts all arguments. Where the results of ``sweep_K`` are finite, they are
-equal to the results of ``site_K``, including rounding errors. The sweeps of an implicit block are repeated
-until the unknowns of all sites converge (:mod:`codegen.run.site_solver`).
+arguments they return NaN. ``site_K`` accepts all arguments. If the new state is not finite at some site, the
+step is repeated with ``site_K`` for all sites. A finite result of ``sweep_K`` is exactly equal to the result
+of ``site_K``. The sweeps of an implicit block are repeated until the unknowns of all sites converge
+(:mod:`codegen.run.site_solver`).
 """
 
 from __future__ import annotations
@@ -95,11 +96,11 @@ _STATE, _WORK, _RESULT = ARRAYS[STATE], ARRAYS[WORK], ARRAYS[RESULT]
 ADVANCE, ABOUT_STEP = "advance", "One step of all sites; return its status."
 
 RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
-"""The statement that ends a step. BAD is the number of sites whose new state is not finite."""
+"""The statement that returns the status: OK, or NOT_FINITE if the new state of a site is not finite."""
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method that does not compose flows. Callees come before their callers."""
+    """Return the functions of a method that does not compose flows. Each function precedes its callers."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     listed += [*([sum_of_terms()] if step.totals else []), *solvers(plan, step)]
@@ -110,7 +111,7 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
     """Return all functions of a step: the functions ``listed``, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
-    # The caller allocates the workspace, so a public function returns its length.
+    # The user of the emitted code allocates the workspace. The function ``workspace`` returns the length.
     size = Return(step.workspace * STRIDE)
     workspace = Function(
         "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
@@ -124,7 +125,7 @@ def _product(shape: Term, dimension: int) -> Term:
 
 def checked(values: Sequence[Term]) -> list[Statement]:
     """Return the statements that count a site if one of its new values is not finite."""
-    # ``x - x`` is 0 for a finite x, and NaN otherwise. The sum is therefore 0 only if all values are finite.
+    # ``x - x`` is 0 for a finite x, and NaN otherwise. The sum is therefore NaN if a value is not finite.
     check = real("check")
     bad = select(check.equals(number(0.0)), whole(0), whole(1))
     return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
@@ -148,7 +149,7 @@ class Loop:
 
     @property
     def near(self) -> bool:
-        """True if all functions that the sweep calls can be computed without branches."""
+        """True if all functions that the sweep calls have variants without branches."""
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
         return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
@@ -166,14 +167,14 @@ class Loop:
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The time, the step size and the parameters that the sweep reads."""
+        """The scalars that the sweep reads: time, step size, sums over all sites, and parameters."""
         read = {s for kernel in self.own.kernels for s in kernel.used_scalars()}
         totals = map(own, self.step.totals)
         return tuple(x for x in (TIME, STEP, *totals, *self.plan.parameters) if x.text in read)
 
     @property
     def shared(self) -> set[str]:
-        """The names of the time, the step size and the parameters that the sweep reads."""
+        """The names of the scalars that the sweep reads."""
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
@@ -183,8 +184,9 @@ class Loop:
     def loaded(
         self, load: Load, place: Term, around: dict[int, Term], exist: Mapping[int, Term] | None = None
     ) -> Term:
-        """Return the entry that a load reads. ``around`` contains the site index of each neighbour. ``exist``
-        contains the conditions under which neighbours exist; None means that all exist.
+        """Return the entry that a load reads. ``around`` contains the site index of each neighbour.
+
+        ``exist`` contains a flag for each neighbour. If ``exist`` is None, all neighbours exist.
         """
         if load.row.array == EXISTS:
             one = number(1.0)
@@ -192,8 +194,7 @@ class Loop:
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the results at a site. If a value of the new state is not finite,
-        they also count the site."""
+        """Return the statements that store the results at a site and test whether a new state is finite."""
         # The first outputs are the images (new values) of the unknowns. With Newton's method, the residuals
         # are stored instead of the images.
         body, images = self._images(ends)
@@ -218,7 +219,7 @@ class Loop:
         All new values are computed before an unknown changes.
         """
         images = [own(f"next {u}") for u in self.own.unknowns]
-        # ``ends`` may have more terms than ``images``, because only its first terms are images.
+        # Only the first terms of ``ends`` are images.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
@@ -233,8 +234,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may lose a NaN. Let s be the sum of the changes. The difference ``s - s`` is NaN if a
-        # change is not finite, and zero otherwise. It is added to the maximum.
+        # The maximum may ignore a NaN. If a change is not finite, the sum s of the changes is not finite, and
+        # ``s - s`` is NaN. Therefore ``s - s`` is added to the maximum.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -246,8 +247,7 @@ class Loop:
     ) -> Function:
         """Return a function of the sweep with the given body.
 
-        If the sweep stores the new state, a counter is added: the function returns the number of sites whose
-        new state is not finite.
+        If :attr:`last` is true, the function returns the number of sites whose new state is not finite.
         """
         if self.last:
             body = [Assign(BAD, whole(0)), *body, Return(BAD)]
@@ -273,8 +273,8 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the ``Load`` objects of the unknowns and of all symbols that the kernel reads."""
-        # The old value of an unknown is always loaded, because its change is computed from it.
+        """Return the loads of the unknowns, and the loads of all symbols that the kernel reads."""
+        # The change of an unknown is its new value minus its old value, so the old value is always loaded.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -308,12 +308,11 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # For a missing neighbour, a value may be computed from the values of the site. Therefore the values
-        # of the site are loaded first.
+        # The value for a missing neighbour may depend on the values of the site, so these are loaded first.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # For a missing neighbour, the index is that of an existing site, so this load is always valid.
+            # For a missing neighbour, the array is read at the index of an existing site.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -321,8 +320,9 @@ class Loop:
     def rows(self) -> tuple[Term, ...]:
         """Return the arguments that describe one row of the lattice.
 
-        They are the index of the first site of the row and, for each neighbour, the index of the first site
-        of its row. In an open lattice, flags state which rows of neighbours exist.
+        The first argument is the index of the first site of the row. The next arguments are the indices of
+        the first sites in the rows of the neighbours. In an open lattice with several rows, flags state which
+        rows of neighbours exist.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -365,12 +365,12 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If ``sweep_K`` computes no site of the row, the loop before its call computes the whole row.
+        # If ``sweep_K`` computes no site of the row, the first loop computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If WHOLE is true, this loop computes all sites of a chain, so it is distributed over processors.
+        # If WHOLE is true, this loop computes all sites of a chain, so several processors can execute it.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
@@ -399,10 +399,10 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index of the first site of a row among all sites. ``indices`` identify the row."""
+    """Return the index of the first site of a row. ``indices`` are the indices of the row."""
     if not indices:
         return whole(0)
-    # Horner's rule gives the number of the row. For two indices i and j with n values of j, it is i n + j.
+    # Horner's rule gives the number of the row. For two indices i and j, it is ``i * shape[1] + j``.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -418,8 +418,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # The sweeps of a block of equations are repeated together, so their calls are collected in ``calls``.
-        # The loop that repeats them is built after the last sweep of the block.
+        # One loop repeats all sweeps of a block of equations. ``calls`` collects the calls of these sweeps.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -435,16 +434,17 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return the test whether the shape of the lattice is unsuitable for the step.
 
-    A dimension may have too few sites. If flows act on pairs, a periodic dimension needs an even number.
+    A dimension may have too few sites. If a sweep acts on pairs of neighbours along a dimension of a periodic
+    lattice, the number of sites in this dimension must be even.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # In a periodic dimension, ``shape[e]`` is added once to an index that is too small, and subtracted
-        # once from an index that is too large. Therefore ``shape[e]`` must be larger than every offset.
+        # In a periodic lattice, an index outside the range is corrected by adding or subtracting ``shape[e]``
+        # once. This is enough only if ``shape[e]`` is larger than every offset.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # With an odd number of sites, two pairs that are computed at the same time would share a site.
+            # The pairs in a sweep must not share a site, so the number of sites must be even.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 
@@ -465,8 +465,8 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        # The first attempt uses the fast variants of sines and Stumpff functions. They return NaN for large
-        # arguments.
+        # The first attempt uses fast variants of sines, cosines and Stumpff functions. For large arguments
+        # they return NaN, and the step is repeated.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
@@ -482,13 +482,13 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     statements: tuple[Statement, ...] = (
         If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
         If(_too_small(step), (Return(code(BAD_SHAPE)),)),
-        # If the number of steps is 0, h is not used, so every value of h is allowed.
+        # If the number of steps is 0, the step size is not used, so it is not tested.
         If(both(STEPS > 0, negated(is_finite(STEP))), (Return(code(BAD_STEP)),)),
         Assign(SITES, _product(shape_of(step), step.dimension)),
         Assign(STATUS, code(OK)),
         Assign(_DONE, whole(0)),
         While(both(_DONE < STEPS, STATUS.equals(code(OK))), body),
-        # After an odd number of steps, the last state is in the workspace.
+        # After an odd number of steps, the new state is in the workspace and must be copied.
         If(negated((_DONE % 2).equals(whole(0))), (copied,)),
         If(given(_COMPLETED), (Assign(_COMPLETED[0], _DONE),)),
         Return(STATUS),
