@@ -1,9 +1,8 @@
-"""Build the functions for one step: the evaluation of the kernel with tests, and the composition of substeps.
+"""Build the emitted functions for one step and for one substep.
 
-A step changes the state if it succeeds, and leaves the state unchanged otherwise. A step fails if an infinity
-or a NaN occurs in the step size or in the new state. Entries of the old state that the kernel does not read
-are tested too, because a NaN in them would not appear in the results of the kernel. There are other reasons
-for failure, for example equations that do not converge.
+If a step fails, the state is unchanged. A step fails if the step size or the new state contains an infinity
+or a NaN. Entries of the old state that the kernel does not read must be finite, too. There are other
+reasons for failure: for example, the iteration for an implicit equation does not converge.
 """
 
 from __future__ import annotations
@@ -67,11 +66,11 @@ def kernel_step(plan: Plan) -> Function:
     # The outputs read the old state, so all outputs are computed before the first entry of the state is
     # overwritten.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read the entries ``unread`` of the state. A NaN in an unread entry would not appear
-    # in the new state, so the unread entries are tested separately.
+    # The kernel does not read some entries of the state. A NaN in such an entry would not appear in the
+    # results of the kernel, so these entries are tested separately.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The warm start of the next step is computed directly after the loops that solve equations. It does not
-    # depend on the outputs of the kernel, so a processor can compute the outputs at the same time.
+    # The initial guess for the next step does not depend on the outputs of the kernel. Its statements are
+    # placed before the outputs, so that a processor can compute both at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -92,10 +91,10 @@ def kernel_step(plan: Plan) -> Function:
 
 
 def _remembered(plan: Plan) -> list[Statement]:
-    """Return the statements that store the solution of the equations and extrapolate it to the next step.
+    """Return the statements that compute the initial guess for the next step (warm start).
 
-    The next step uses the extrapolated solution as its initial guess (warm start). Without a warm start the
-    list is empty.
+    The initial guess is extrapolated from the solutions of the equations in this step and in earlier steps.
+    If the kernel has no warm start, the list is empty.
     """
     if plan.start is None:
         return []
@@ -106,26 +105,27 @@ def _remembered(plan: Plan) -> list[Statement]:
 
 
 def _errors(plan: Plan) -> list[Statement]:
-    """Return the statement that stores the error estimate. The list is empty without an estimate."""
+    """Return the statements that store the error estimate. If there is no estimate, the list is empty."""
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
-    # A run with constant steps passes no array for the estimate. The estimate is then not computed.
+    # A run with constant steps passes no array for the estimate, and computes no estimate.
     return [If(given(plan.error), tuple(errors))]
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that increase the age of stored inverse matrices by one.
+    """Return the statements that update the age of each stored inverse matrix after a step.
 
-    Only loops that use each inverse for a fixed number of steps (``period``) need a statement.
+    A new matrix has the age 1, and each step adds 1. If a loop does not use its inverse for a fixed number of
+    steps (``period``), no statement is returned for this loop.
     """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps, an iteration with the old matrix would converge slowly. Therefore the age is
-        # set to 0, which makes the next step compute a new matrix.
+        # After ``period`` steps, an iteration with the old matrix would converge slowly. Therefore the age
+        # becomes 0. At the age 0, the next step computes a new matrix.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
@@ -153,7 +153,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
-    """Return the time and the size of the substep with the index ``part``, as arguments of its call."""
+    """Return the start time and the step size of the substep with the index ``part``."""
     # The time is computed from the beginning of the step. Adding the lengths of all earlier substeps would
     # accumulate rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)

@@ -1,11 +1,11 @@
-"""Step control: steps as large as the tolerances allow, by a proportional-integral controller.
+"""Step control with a proportional-integral controller.
 
 Let e_i be the error estimate for the component y_i of the state. The error norm of a step is the root mean
 square of the quotients e_i/(atol + rtol |y_i|). A step is accepted if the norm is at most one. Let p be the
 order of the estimate. After an accepted step, the step size is multiplied by the factor
 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is
-limited to [0.2, 5], or to [0.2, 1] if the accepted step directly follows a rejected trial. A rejected step is
-repeated with the factor 0.9 norm^(-1/p), limited to [0.2, 0.9].
+limited to [0.2, 5]. If the trial directly before the accepted step was rejected, the factor is limited to
+[0.2, 1]. After a rejected step, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). With the exponents
@@ -13,13 +13,13 @@ I, section II.4. The controller is Gustafsson's (volume II of the same book, sec
 solution more slowly: the method ``dop853`` would need 15 to 20 % more steps on ``heavy_top``. After an
 accepted step, norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
 
-If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
-0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. If the guess is too large, a
-few steps are rejected. If the first trial covered a much smaller part of the interval, many steps of a short
-run would be too small.
+If the caller gives no step size, the first trial step has 1/16 of the length of the interval. This size is
+only a guess. If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16].
+If the guess is too large, a few steps are rejected. With a much smaller guess, many steps of a short run
+would be too small.
 
-An implicit step does not use the solutions of earlier steps, because they are bad initial guesses after a
-change of the step size.
+An implicit step does not use the solutions of earlier steps. After a change of the step size, these solutions
+are bad initial guesses.
 """
 
 from __future__ import annotations
@@ -56,14 +56,14 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
-"""The first trial covers 1/FIRST of the interval. After the first accepted step, the step size grows at most
-by the factor FIRST."""
+"""If the caller gives no step size, the first trial step has 1/FIRST of the length of the interval. After the
+first accepted step, the step size is multiplied by FIRST at most."""
 
 SHARE = 0.2
-"""The controller multiplies the step size by powers of two error norms.
+"""A constant in the exponents of the controller.
 
-The exponents are -4 SHARE/p for the current step and SHARE/p for the previous step, where p is the order of
-the error estimate."""
+Let p be the order of the error estimate. In the factor for the step size, the error norm of the current step
+has the exponent -4 SHARE/p. The error norm of the previous accepted step has the exponent SHARE/p."""
 
 FLOOR = 1e-4
 """The least error norm that the controller stores for the next step.
@@ -148,8 +148,8 @@ class Controlled:
 
     def body(self) -> tuple[Statement, ...]:
         """Return the statements in the body of the emitted function."""
-        # The run may go forwards or backwards in time, so there are two comparisons. If a time is a NaN, both
-        # comparisons are false, and no step is made.
+        # The run may go forwards or backwards in time. The test uses two comparisons in place of ``!=``,
+        # because for a NaN both comparisons are false, and no step is made.
         moving = either(self.now < self.end, self.now > self.end)
         return (
             *self.begin(),
@@ -166,10 +166,10 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested only once, before the loop. This is enough, because the function
-        # ``between`` limits the factors of the step size, so the step size never becomes a NaN.
+        # The arguments are tested only once, before the loop. In the loop, the step size is multiplied by
+        # results of the function ``between``. These results are finite, even if the error norm is a NaN.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
-        # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
+        # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A rough first step size is enough, because it may change by a large factor after the first trial.
@@ -216,7 +216,8 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory is cleared, because the warm start assumes that all earlier steps had the same size.
+        # The warm start assumes that all steps have the same size. Here the step size varies, so the memory
+        # is cleared before each trial step.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
@@ -246,12 +247,12 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p). ``previous`` is the value of ``root`` in the previous accepted step,
-        # but at most FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. In
-        # the first accepted step there is no previous value, and ``root`` replaces this factor.
+        # ``root`` is norm^(-SHARE/p). ``previous`` is ``root`` from the previous accepted step, limited to
+        # FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. If the caller
+        # gave no step size, the first accepted step has the factor ``root`` in place of ``1 / previous``.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
-        # If the trial before this step was rejected, the controller had predicted a step size that was too
-        # large. The next step is then not longer than this step (Hairer, Norsett and Wanner).
+        # If the trial directly before this step was rejected, the step size does not grow after this step
+        # (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), select(self.starting, number(FIRST), number(MOST)))
         return (
             Assign(state, self.trial),
@@ -261,9 +262,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step may have been shortened to end at ``end``. The caller then gets the original,
-                # longer step size. It is changed only if the error requires a step that is even shorter than
-                # the last step.
+                # The last step may have been shortened to end at ``end``. If the factor is at least 1, the
+                # caller gets the step size from before the shortening.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -275,10 +275,10 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The status is set to OK, so that the run continues with a shorter step. There is one exception: if the
-        shorter step is too short to change the time in floating-point arithmetic, the status is unchanged.
+        The status is set to OK, so that the run continues with a shorter step. If the shorter step cannot
+        change the time in floating-point arithmetic, the status is unchanged.
         """
-        # A step that failed and cannot be shortened ends the run with its status.
+        # If a failed step cannot be shortened, the run ends with the status of this step.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -1,4 +1,6 @@
-"""The cost model: predicted CPU time of a step, from counts of operations, sweeps and matrices.
+"""The cost model predicts the CPU time of a step.
+
+A sweep is one iteration of a solver. A matrix is the matrix of Newton's method.
 
 The predicted time is a sum of amounts of work, each multiplied by its weight (:data:`WEIGHTS`). The amounts
 are:
@@ -6,12 +8,13 @@ are:
 - Operations (:mod:`codegen.kernel.operations`). The operations of a sweep are counted in each sweep. The
   operations of a matrix are counted each time that the matrix is computed. All other operations are counted
   once in each step.
-- Unknowns. In each step, the warm start takes some time for each unknown. In each sweep, the stopping rule
-  takes some time for each unknown.
-- Corrections. For equations u = g(u), a sweep of Newton's method ends with the product of the inverse and the
-  residuals g(u) - u. The next sweep cannot begin before this product is computed. This delay is counted as
-  one correction in each sweep. For equations in the form r(u) = 0, no corrections are counted.
-- Cubes. If no formula computes the inverse of an n x n matrix, its numerical inversion is counted as n^3.
+- Unknowns. The time of the warm start is proportional to the number of unknowns. The time of the stopping
+  rule in a sweep is also proportional to this number.
+- Corrections. For equations u = g(u), a sweep of Newton's method ends with a matrix-vector product. The
+  product multiplies the inverse matrix by the residuals g(u) - u. The next sweep cannot begin before this
+  product is computed. This delay is counted as one correction in each sweep. For equations in the form
+  r(u) = 0, no corrections are counted.
+- Cubes. If an n x n matrix is inverted by elimination, the inversion is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
 problems of the gallery. It writes predictions and measurements into ``benchmarks/README.md``. With the option
@@ -29,19 +32,20 @@ from codegen.kernel.operations import STEP, matrix_of, operations
 from codegen.kernel.schedule import arrange
 
 Work = Mapping[str, Mapping[str, int]]
-"""The counts of operations for each part of a step: its sweeps, its matrices, and the rest of the step
-(:func:`codegen.kernel.operations.operations`)."""
+"""The numbers of operations in the parts of a step (:func:`codegen.kernel.operations.operations`).
+
+The parts are the sweeps, the matrices, and all other statements."""
 
 
 @dataclass(frozen=True)
 class Amounts:
     """Amounts of work, with one field for each kind of work.
 
-    The weights of the cost model (:data:`WEIGHTS`) are also an object of this class. Each of their fields is
-    the time of one unit of work in nanoseconds.
+    The weights of the cost model (:data:`WEIGHTS`) are also an object of this class. Each weight is the time
+    of one unit of work in nanoseconds.
 
-    - ``unknowns`` is the number of unknowns, counted once in a step.
-    - ``swept`` is the number of unknowns, added once for each sweep.
+    - ``unknowns`` is the number of unknowns.
+    - ``swept`` is the sum of the numbers of unknowns over all sweeps.
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
@@ -58,7 +62,7 @@ class Amounts:
     cubes: float = 0.0
 
     def __add__(self, other: Amounts) -> Amounts:
-        # The fields are added by position, so this method also works if a field is added to the class.
+        # The method does not name the fields, so it remains correct if the class gets another field.
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
@@ -77,9 +81,10 @@ class Amounts:
 WEIGHTS = Amounts(
     unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
 )
-"""The weights: the nanoseconds that one unit of each kind of work took in the measurements.
+"""The weights of the cost model, in nanoseconds per unit of work.
 
-The choice of a solver depends only on the ratios of the weights, and not on the speed of the machine."""
+The weights are fitted to measured times (``benchmarks/solver_choice.py``). The choice of a solver depends on
+the ratios of the weights, and not on the speed of the machine."""
 
 
 CHEAP = ("add", "mul", "choose", "fabs")
@@ -87,7 +92,7 @@ CHEAP = ("add", "mul", "choose", "fabs")
 
 
 def of_operations(counts: Mapping[str, int]) -> Amounts:
-    """Return the amounts of work for counted operations.
+    """Return the amounts of work for ``counts``, the number of operations of each kind.
 
     >>> of_operations({"add": 2, "mul": 3, "div": 1, "stumpff_12": 4}) == Amounts(
     ...     arithmetic=5, divisions=1, calls=4
@@ -95,51 +100,53 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
-    # All calls have the same weight. Nearly all of them compute Stumpff functions of small arguments by short
-    # polynomials, which take about the same time.
+    # All function calls have the same weight. Nearly all calls evaluate Stumpff functions of small arguments.
+    # The evaluations are short polynomials, and take about the same time.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work that occur once in a step. The work of sweeps and matrices is not
-    included."""
-    # The counts of operations include all substeps, but not the warm start. The work of the warm start is
-    # proportional to the number of unknowns in all substeps.
+    """Return the amounts of work in a step, without the sweeps and the matrices of its loops."""
+    # ``work`` does not include the warm start. The time of the warm start is proportional to the number of
+    # unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # For equations u = g(u), the next sweep reads unknowns that were corrected by the product of the inverse
-    # and the residuals. A processor cannot begin the sweep before this product is computed.
+    # For equations u = g(u), a sweep of Newton's method ends with a matrix-vector product. A processor cannot
+    # begin the next sweep before this product is computed.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of work for one matrix and its inversion; zero for fixed-point iteration."""
+    """Return the amounts of work for one matrix and its inversion.
+
+    Fixed-point iteration has no matrix, so all amounts are zero.
+    """
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # If a formula computes the inverse, the operations of the formula are already counted.
+        # If a formula computes the inverse matrix, ``work`` contains the operations of this formula.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
-    # The elimination takes a constant times n^3 operations. The weight of ``cubes`` contains this constant.
+    # The elimination takes O(n^3) operations. The weight of ``cubes`` includes the constant factor.
     return Amounts(cubes=n**3)
 
 
 class StepCost:
     """Predicts the cost of a step of one kernel.
 
-    The functions of this class have the arguments ``sweeps`` and ``matrices``. These are the average numbers
-    of sweeps and of matrices in a step, with one number for each block of equations. The function ``block``
-    gets only the numbers of one block.
+    The arguments ``sweeps`` and ``matrices`` are the average numbers of sweeps and of matrices in a step.
+    Each argument contains one number for each loop of the kernel. In the method :meth:`block`, each argument
+    is the number for one loop.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -155,7 +162,7 @@ class StepCost:
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts of work that block number ``k`` adds to a step."""
+        """Return the amounts of work in a step for the loop with the index ``k``."""
         # ``sweeps`` and ``matrices`` are averages over several steps, so they may be fractions.
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)

@@ -1,25 +1,25 @@
-"""The stopping rule for all loops that solve implicit equations.
+"""The stopping rule for loops that solve implicit equations.
+
+The following rule is for equations u = g(u). The method :meth:`Stopping.converged_by_residuals` contains the
+rule for equations r(u) = 0.
 
 ``change`` is the largest change of an unknown in a sweep, and ``scale`` is the largest absolute value of an
 unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. The
-unknowns are accepted in three cases:
+loop has converged in three cases:
 
-- *close*: the change is about as small as the rounding errors, and so is the predicted next change (the
-  change times the rate). A small change alone does not prove convergence, because a slow iteration makes
-  small changes far from the solution.
-- *still*: the change no longer decreases and is nearly as small as the rounding errors. Then only rounding
-  errors are left.
-- *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
-  rounding errors of the state. This case is needed for unknowns that are small differences of large numbers.
-  The rounding errors of the large numbers keep the changes of such an unknown larger than the rounding error
-  of the unknown itself.
+- *close*: the change and the predicted next change are about as small as the rounding errors. The predicted
+  next change is the rate times the change. A small change alone does not prove convergence, because a slow
+  iteration makes small changes far from the solution.
+- *still*: the change no longer decreases and is nearly as small as the rounding errors.
+- *lost*: the change no longer decreases, and h times the change is below the rounding errors of the state.
+  This case is needed for an unknown that is a small difference of large numbers. The rounding errors of the
+  large numbers keep the change of this unknown large.
 
-All tests are relative, so the number of sweeps does not depend on the units of the unknowns. A diverging
-iteration is never accepted, even if its values are small. If a change is not finite, the loop ends with the
-status NOT_FINITE.
+All tests are relative, so the number of sweeps does not depend on the units of the unknowns. If a change is
+not finite, the loop ends with the status NOT_FINITE.
 
-The test of rate times change is taken from Hairer and Wanner, Solving Ordinary Differential Equations II,
-section IV.8.
+The test of the predicted next change is taken from Hairer and Wanner, Solving Ordinary Differential Equations
+II, section IV.8.
 """
 
 from __future__ import annotations
@@ -59,8 +59,9 @@ LEAST_RATE = 2.0**-13
 """The stopping test of a loop over residuals (equations r(u) = 0) adds this number to the rate of
 convergence.
 
-The test multiplies the last change by the sum of the rate and LEAST_RATE. The product estimates the error
-that remains in the unknowns, because the relative error of the last change is about LEAST_RATE.
+The test estimates the error that remains in the unknowns after a sweep. The estimate is the change in this
+sweep, multiplied by the sum of the rate and LEAST_RATE. Even if the measured rate is zero, the estimate is at
+least LEAST_RATE times the change.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -95,7 +96,8 @@ class Stopping:
     def rate(self) -> Term:
         """The rate of convergence.
 
-        In the first sweep it is the rate that the previous step has stored, or 1 if no rate was stored.
+        In the first sweep, the rate is the value that the previous step has stored. If no value is stored,
+        the rate is 1.
         """
         return real(f"rate_{self.number}")
 
@@ -108,7 +110,8 @@ class Stopping:
     @cached_property
     def warm(self) -> bool:
         """True if the loop has a warm start."""
-        # Loops without starting values of their own share the warm start of the kernel.
+        # If the loop has no formulas for the first values of its unknowns, the warm start of the kernel
+        # computes these values.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
@@ -116,10 +119,9 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes, so a loop starts with the rate of the
-            # previous step, as in the book of Hairer and Wanner. The loop can then end after one sweep. If no
-            # rate is stored, the rate is 1. The loop then ends after one sweep only if the change is below
-            # the rounding errors.
+            # In steps of equal size, the rate hardly changes. Therefore a loop begins with the rate of the
+            # previous step (Hairer and Wanner), and may end after one sweep. If no rate is stored, the rate
+            # is 1. With this rate, the predicted next change equals the change in the first sweep.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -142,8 +144,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The change in the first sweep is a measure of the error of the initial guess. If a step has
-            # several loops, the largest of these changes is stored for the warm start.
+            # The change in the first sweep is a measure of the error of the initial guess. The warm start
+            # reads the largest such change of all loops in a step.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -158,18 +160,19 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # A small change alone does not prove convergence, so the predicted next change must also be small. If
-        # no rate is stored, the rate is ``CHANGE / previous``. Both sides of the test are then multiplied by
-        # ``previous``, which avoids a division. In the first sweep ``previous`` is 0, so only a change of
-        # zero satisfies this test.
+        # The predicted next change must be at most the rounding error of the largest unknown. In a loop
+        # without a warm start, the rate is ``CHANGE / previous``. For this loop, both sides of the test are
+        # multiplied by ``previous``, so no division is needed. In the first sweep ``previous`` is 0, and the
+        # test is true only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors may keep the change above the bounds of the test ``close``. The change then no
-        # longer decreases, and more sweeps are useless. In a diverging iteration the change does not decrease
-        # either, but it is larger than ``tolerance`` times ``SCALE``.
+        # Rounding errors may keep the change above the bounds of the test ``close``. In this case the change
+        # no longer decreases, and more sweeps are useless. The change of a diverging iteration does not
+        # decrease either. Therefore a second test is needed: the change is at most ``tolerance`` times
+        # ``SCALE``, or the test :meth:`lost` is true.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -183,11 +186,10 @@ class Stopping:
     def lost(self) -> Term:
         """Return the term that tests whether h times the change is below the rounding errors of the state.
 
-        If the loop solves equations for a variation (a tangent vector at the state), the product is compared
-        with the rounding errors of the variation and not of the state.
+        A loop may solve equations for a variation (a tangent vector at the state). For such a loop, the test
+        uses the rounding errors of the variation in place of those of the state.
         """
-        # The solution of equations for a variation does not change the state. It changes only the array
-        # ``vector``, which contains the variation.
+        # The array ``vector`` contains the variation. All other arrays belong to the state.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -200,28 +202,29 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that sum the absolute values of the changes and of the unknowns.
 
-        A loop over residuals (equations r(u) = 0) uses them in place of the statements of :meth:`measured`.
+        For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
         """
         return [
-            # A sum that contains a NaN is NaN, but a maximum may lose a NaN. With a sum, no other test for
-            # finite numbers is needed.
+            # If a change is a NaN, the sum is a NaN, but a maximum may ignore the NaN. Therefore the test
+            # whether the sum is finite is enough.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
 
     def converged_by_residuals(self) -> list[Statement]:
-        """Return the statements that set the flag ``converged`` for a loop over residuals.
+        """Return the statements that set the flag ``converged`` for equations r(u) = 0.
 
-        The bound in the following rules is :data:`FOUR_ROUNDINGS` times the sum of the absolute values of the
-        unknowns. The rate is change/previous. In the first sweep, it is the rate that the previous step has
-        stored. The loop ends
+        The change in a sweep is the sum of the absolute values of all changes. The bound is
+        :data:`FOUR_ROUNDINGS` times the sum of the absolute values of the unknowns. The rate is
+        change/previous. In the first sweep, the rate is the value that the previous step has stored. The
+        loop has converged in these cases:
 
-        - if the rate is below 1/2 and the predicted next change is below the bound,
-        - if the rate is between 1/2 and 1 and the geometric series of all later changes is below the bound,
-        - if the rate is at least 1 and the change is below the tolerance,
-        - if the rate is at least 1 and h times the change is below the rounding errors of the state.
+        - The rate is below 1/2, and the predicted next change is below the bound.
+        - The rate is between 1/2 and 1, and the predicted sum of all later changes is below the bound.
+        - The rate is at least 1, and the change is below the tolerance.
+        - The rate is at least 1, and h times the change is below the rounding errors of the state.
 
-        If the rate is at least 1/2, the loop makes two sweeps or more.
+        If the rate is at least 1/2, the loop makes at least two sweeps.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -232,19 +235,19 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # The predicted next change is reliable only if the rate is clearly below 1.
+            # If the rate is near 1 or larger, the predicted next change is not reliable.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # At a rate of 1/2 or more, the change in a single sweep does not show the distance to the
-                    # solution.
+                    # In the first sweep, the rate is only the stored value. At a stored rate of 1/2 or more,
+                    # the loop makes a second sweep and measures the rate.
                     both(
                         SWEEPS > 1,
-                        # If changes decrease slowly, even a small change matters: at the rate 0.9, the sum of
-                        # all later changes is nine times this change.
+                        # If the changes decrease slowly, the remaining error is larger than the change. At
+                        # the rate 0.9, the sum of all later changes is nine times the change.
                         either(
                             CHANGE * rate <= close * SCALE * (1.0 - rate),
                             both(rate >= 1.0, either(CHANGE <= tolerance * SCALE, self.lost())),
@@ -263,30 +266,30 @@ class Stopping:
         - It is OK if the flag ``converged`` and the test ``possible`` are true.
         - It is NOT_CONVERGED in all other cases.
 
-        The test ``possible`` is false if the matrix is singular. If ``possible`` is None, only the flag
-        ``converged`` is read.
+        If the matrix is singular, the test ``possible`` is false. If there is no such test, ``possible`` is
+        None.
         """
-        # The test ``is_finite`` comes first. Comparisons with a NaN are false, so for a NaN the flag
-        # ``converged`` is false. Without the test ``is_finite``, the status would be NOT_CONVERGED, and the
-        # loop would continue.
+        # For a NaN, the flag ``converged`` is false, because comparisons with a NaN are false. The loop must
+        # end nevertheless, so a value that is not finite gets a status of its own.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
-        """Return the condition under which the loop continues. If ``astray`` is true, the loop ends."""
-        # An iteration that converges too slowly ends at the limit on the number of sweeps. If the kernel has
-        # a warm start, the step is then repeated by continuation in h.
+        """Return the condition under which the loop continues.
+
+        ``astray`` is a test for a loop that cannot converge. If this test is true, the loop ends.
+        """
+        # If an iteration converges too slowly, the loop ends at the largest number of sweeps.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:
-        """Return the statements that store the rate for the next step, after a loop that has succeeded.
+        """Return the statements that store the rate of a converged loop for the next step.
 
-        If a loop for equations u = g(u) made a single sweep, it measured no rate, and the stored rate is
-        doubled. After several such steps, the stored rate is so large that the first sweep fails the stopping
-        test. The loop then makes a second sweep and measures the rate again. A loop over residuals (equations
-        r(u) = 0) stores its rate unchanged.
+        If a loop for equations u = g(u) makes only one sweep, it measures no rate, and the stored rate is
+        doubled. After several doublings, the rate is so large that the loop makes a second sweep and measures
+        the rate. A loop for equations r(u) = 0 stores its rate unchanged.
         """
         if not self.warm:
             return []

@@ -2,9 +2,11 @@
 norms.
 
 A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
-place i of its diagonal. If the diagonal has no entry in row i, the place contains zero. The entries of a full
-matrix are formulas in the row i and the column j, and are not stored. Only the values of those subexpressions
-that contain neither i nor j are stored. Each product with a vector computes the entries from these values.
+place i of its diagonal. If the diagonal has no entry in row i, the place contains zero.
+
+The entries of a full matrix are formulas in the row i and the column j. The entries are not stored, but some
+subexpressions of the formulas are independent of i and j. The values of these subexpressions are stored. Each
+product with a vector computes the entries from the stored values.
 """
 
 from __future__ import annotations
@@ -23,8 +25,10 @@ from codegen.run.plan import STEP
 from codegen.run.terms import Kind, Term, count, number, own, real, select, size, value, whole
 
 VALUE, ROW_SUM, PRODUCT = "matrix_value", "row_sum", "product"
-"""The names of the emitted functions that evaluate A(t), compute its largest row sum, and multiply it by a
-vector."""
+"""The names of three emitted functions.
+
+The functions evaluate A(t), compute the largest sum of absolute values in a row of the matrix, and multiply
+the matrix by a vector."""
 
 _PRODUCT = "result = a x."
 
@@ -36,25 +40,23 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 class Hoisted:
     """Replaces subexpressions of formulas by names.
 
-    A subexpression gets a name if it contains neither i nor j, the indices of the row and of the column.
-
-    The emitted code computes the values of these names once, before the loops over i and j. ``names``
-    contains the name of each subexpression.
+    Let i be the row and j the column of an entry. A subexpression gets a name if it is independent of i and
+    j. The emitted code computes the values of the names once, before the loops over i and j. ``names``
+    contains the name of each such subexpression.
     """
 
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return the formula ``root``. Subexpressions that contain neither i nor j are replaced by names."""
+        """Return ``root`` with names in place of the subexpressions that are independent of i and j."""
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
-            # The arguments of a node are visited before the node, so it is known whether they contain an
-            # index.
+            # The arguments of a node are visited before the node, so their values of ``indexed`` are known.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
-        # This walk does not enter a subexpression that contains neither i nor j. Only the whole subexpression
-        # gets a name, and not its arguments.
+        # If a subexpression is independent of i and j, the loop does not visit its arguments. Only the whole
+        # subexpression gets a name.
         for node in walk([root], lambda x: not indexed[x]):
             if not indexed[node]:
                 known[node] = self._named(node)
@@ -95,7 +97,7 @@ class StoredMatrix(ABC):
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
-        # The coefficient of a term contains no indices, so it becomes a constant or a single name.
+        # A coefficient is independent of i and j, so each result is a constant or a single name.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property
@@ -110,9 +112,9 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute ``target``, the array of a linear combination called ``letter``.
+        """Return the statements that compute ``target``, the array of the linear combination ``letter``.
 
-        ``nodes`` contains one array for each time t_i: the array of the matrix at this time.
+        For each time t_i, ``nodes`` contains the array of the matrix at this time.
         """
 
     @abstractmethod
@@ -126,14 +128,14 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of A(t): a sum of entries of constant matrices, each multiplied by a coefficient.
 
-        For each constant matrix C, ``entries`` contains three values: the index of its coefficient, its
-        entries, and the name of the table of these entries. The entry is in the row ``row`` and the column
-        ``column`` of C, and at the index ``place`` of the table.
+        For each constant matrix C, ``entries`` contains three values: the index of the coefficient of C, the
+        entries of C, and the name of the table with these entries. The returned term uses the entry of C in
+        the row ``row`` and the column ``column``. In the table, this entry has the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
-            # ``constant_entry`` also returns the statements that convert the indices to reals. They are not
-            # needed here, because the method ``before`` returns them.
+            # The first result of ``constant_entry`` is a list of statements. The method ``before`` returns
+            # these statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -144,19 +146,19 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that convert the indices to reals, for the formulas in ``entries``."""
+        """Return the statements that convert i and j to real numbers for the formulas in ``entries``."""
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                # Several formulas may read the same index. The index is converted only once.
+                # If several formulas read the same index, the index is converted only once.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return the formula ``given``. Subexpressions that contain neither i nor j are replaced by names.
+        """Return ``given`` with names in place of the subexpressions that are independent of i and j.
 
-        If the entries are given as a tuple of numbers, the tuple is returned unchanged.
+        If ``given`` is a tuple of numbers, it is returned unchanged.
         """
         return given if isinstance(given, tuple) else self.hoisted.formula(given)
 
@@ -169,8 +171,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # A linear combination of the matrices A(t_i) has entries on the same diagonals as these matrices.
-    # Therefore its array also has the length ``node_size``.
+    # The matrices A(t_i) and their linear combinations have the same diagonals, so all arrays have the same
+    # length.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -178,7 +180,7 @@ class BandedMatrix(StoredMatrix):
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
-        """Return the functions that evaluate the matrix, bound its row sums, and multiply it by a vector."""
+        """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
@@ -208,7 +210,8 @@ class BandedMatrix(StoredMatrix):
         return For(_ROW, whole(self.n - abs(offset)), body)
 
     def _row_sum(self, a: Term) -> Function:
-        # A place that corresponds to no entry contains zero, so all diagonals can be added in every row.
+        # If a diagonal has no entry in row i, place i of the diagonal contains zero. Therefore each row sum
+        # contains one term for each diagonal.
         places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
         total = size(a[places[0]])
         for place in places[1:]:
@@ -216,8 +219,9 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, it is the first diagonal. It has an entry in every row, so its
-        # products can overwrite the old result. Without a main diagonal, the result is first set to zero.
+        # If the matrix has a main diagonal, this diagonal is the first one. The main diagonal has an entry in
+        # every row, so the products of these entries overwrite the old result. If there is no main diagonal,
+        # the result is set to zero before the products are added.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -236,23 +240,23 @@ class BandedMatrix(StoredMatrix):
 class FullMatrix(StoredMatrix):
     """A matrix whose entries are computed from the row i and the column j and are not stored.
 
-    The array for the time t_i contains the values of those subexpressions of the entries of A(t_i) that
-    contain neither i nor j.
+    Some subexpressions in the formulas of the entries are independent of i and j. The array for the time t_i
+    contains the values of these subexpressions.
 
     A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains the
-    coefficients times h, followed by the arrays for all times t_i.
+    coefficients of the matrices A(t_i), followed by the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The arrays contain one value for each name in ``hoisted``. Therefore all names are determined here,
-        # before an array is declared.
+        # The length of an array depends on the number of names in ``hoisted``. Therefore the constructor
+        # determines all names.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
             for place, d in enumerate(own_matrix.diagonals):
                 self.banded.append((d.offset, term, d.entry, table_name(own_matrix, place)))
-            # A matrix that is not given by its diagonals is given by a formula or a table for all entries.
+            # If a matrix has no list of diagonals, one formula or one table gives all entries.
             if not own_matrix.diagonals:
                 self.entries.append((term, own_matrix.full, own_matrix.name))
         for given in (*(e for _, e, _ in self.entries), *(e for _, _, e, _ in self.banded)):
@@ -269,9 +273,10 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that fill ``target``, the array of a linear combination called ``letter``.
+        """Return the statements that compute ``target``, the array of the linear combination ``letter``.
 
-        The array begins with the coefficients of the matrices A(t_i). Copies of the arrays ``nodes`` follow.
+        The array contains the coefficients of the matrices A(t_i), followed by copies of the arrays in
+        ``nodes``.
         """
         weights = dict(letter)
         # A matrix A(t_i) that does not occur in the linear combination has the coefficient zero.
@@ -280,14 +285,14 @@ class FullMatrix(StoredMatrix):
             for k in range(self.nodes)
         ]
         for k, node in enumerate(nodes):
-            # The arrays for all times follow one another after the coefficients.
+            # ``first`` is the place in ``target`` at which the copy of the array ``node`` begins.
             first = self.nodes + k * self.node_size
             copied = Assign(target[_at(first, _ROW)], node[_ROW])
             body.append(For(_ROW, whole(self.node_size), (copied,)))
         return body
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
-        """Return the functions that evaluate the matrix, bound its row sums, and multiply it by a vector."""
+        """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
@@ -323,8 +328,8 @@ class FullMatrix(StoredMatrix):
         one = self.entry(self.entries, row, column, self.n * row + column)
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
-        # For each time t_i, the entry of A(t_i) times its coefficient, which contains h, is added to
-        # ``_ENTRY``.
+        # For each time t_i, the entry of A(t_i) is multiplied by the coefficient of A(t_i) and added to
+        # ``_ENTRY``. The coefficient contains the factor h.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
@@ -333,9 +338,9 @@ class FullMatrix(StoredMatrix):
 
         The entry is added only if the current row and column lie on this diagonal.
         """
-        # Row i and column j lie on the diagonal if j = i + ``offset``. The place on the diagonal is the
-        # smaller of i and j. The test adds |offset| to the smaller index, because a subtraction could give a
-        # negative number, and counts have an unsigned type.
+        # The entry in row i and column j is on the diagonal if j = i + ``offset``. Its place on the diagonal
+        # is the smaller of i and j. The indices are unsigned integers, so the test avoids a subtraction and
+        # adds |offset| to the smaller index.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
@@ -378,9 +383,9 @@ def _combined(nodes: Sequence[Term], letter: Letter) -> Term:
 
 
 def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool) -> list[Statement]:
-    """Return the statements that add an entry times a row of x to a row of y.
+    """Return the statements that multiply row j of x by ``entry`` and add the product to row i of y.
 
-    If ``first`` is True, the statements overwrite the row of y instead.
+    If ``first`` is True, the product overwrites row i of y. The arrays x and y have ``k`` columns.
     """
     if k == 1:
         one = entry * x[j]
