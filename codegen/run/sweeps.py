@@ -6,13 +6,12 @@ assignment, so that all values computed in it belong to the accepted unknowns. I
 multiplies the residuals by the inverse of a matrix and adds the product to the unknowns. The three forms of
 Newton's method use different matrices:
 
-- *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
-  ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
-  The loop fails if the change does not decrease right after the matrix was computed, or if the matrix is
-  singular.
-- *simplified Newton*: the matrix, correct to first order in h, is computed before the sweeps of each step.
-- *residuals*: the matrix of residual equations r(u) = 0, correct to first order in h, is stored for
-  ``Newton.period`` steps.
+- *Newton*: the exact matrix. Later sweeps and later steps use the same matrix. If a change exceeds
+  ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. If a new matrix is
+  singular, the loop fails. If the change does not decrease with a new matrix, the loop fails, too.
+- *simplified Newton*: the matrix to first order in h. Each step computes the matrix before its sweeps.
+- *residuals*: the matrix of the equations r(u) = 0, to first order in h. It is used for ``Newton.period``
+  steps.
 """
 
 from __future__ import annotations
@@ -131,7 +130,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements of a sweep that compute the images of the unknowns."""
+        """Return the statements that compute the images of the unknowns in one sweep."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -147,19 +146,18 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop with the given body, and the statements that follow the loop.
 
-        The loop ends with a failure if the test ``astray`` is true. If the loop has failed and the test
-        ``singular`` is true, the status is SINGULAR.
+        If the test ``astray`` is true, the loop ends with a failure. If the test ``singular`` is true after a
+        failure, the status becomes SINGULAR.
         """
-        # The loop continues as long as the status is NOT_CONVERGED. Array languages cannot leave a loop from
-        # its middle, so a change of the status ends the loop. If the loop ends because it has made too many
-        # sweeps, the status is still NOT_CONVERGED.
+        # Array languages have no ``break`` statement. Therefore the loop condition tests the status and the
+        # number of sweeps. After too many sweeps the status is NOT_CONVERGED.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if singular is not None:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # After a failure, this call also records the number of the block. Therefore it comes before the
+            # If the loop has failed, this call records the failure. Therefore the call comes before the
             # statement that returns the status.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
@@ -179,29 +177,28 @@ class _FixedPoint(_Loop):
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # The unknowns change only if the loop continues. After convergence they keep their values, because
-        # later statements read results that the last sweep has computed from these values. An ``If`` is used
-        # and not a ``select`` for each unknown, because an ``If`` copies nothing after convergence.
+        # later statements read results that the last sweep has computed from the unknowns. A single ``If`` is
+        # cheaper than a ``select`` for each unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes of the unknowns, and the sum of the changes."""
+        """Return the statements that compute the sizes of the changes, and the sum of these sizes."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        # CHANGE is a maximum, and the expression ``a > b ? a : b`` may lose a NaN. A sum of absolute values
-        # loses neither NaNs nor infinities.
+        # CHANGE is a maximum, and a maximum may ignore a NaN, because comparisons with a NaN are false. A sum
+        # of absolute values is finite only if all summands are finite.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return statements and a sum, as :meth:`narrow` does. The statements compute the changes in a
-        loop."""
+        """Return the same as :meth:`narrow`, but the statements compute the changes in a loop."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
-        # The maximum may lose a NaN, so the sum of all changes is computed too.
+        # A maximum may ignore a NaN, but a sum does not. Therefore the loop computes both.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),
@@ -226,13 +223,13 @@ class _Newton(_Loop):
 
     @property
     def newton(self) -> Newton:
-        """The object of the kernel that describes the matrix of Newton's method."""
+        """The description of the matrix of Newton's method."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 
     @property
     def kept(self) -> bool:
-        """True if the matrix is stored from step to step."""
+        """True if later steps use the same matrix."""
         return self.iteration.loop.solver == NEWTON
 
     @property
@@ -267,31 +264,30 @@ class _Newton(_Loop):
             # The age of a stored matrix is at least 1. The age 0 means that no usable matrix is stored.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # If the unknowns are not finite, a new matrix would contain NaNs. In this case no matrix is
-            # computed, and the memory keeps the old matrix.
+            # If the residuals are not finite, a new matrix could contain NaNs. In this case no matrix is
+            # computed, and the stored matrix does not change.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` is computed before the unknowns are corrected. If the initial guess is zero, ``SCALE`` is
-        # zero in the first sweep, and the stopping rule accepts only changes that are zero.
+        # ``SCALE`` was computed above from the unknowns before this correction. If the initial guess is
+        # zero, ``SCALE`` is 0 in the first sweep. The first sweep then converges only if all changes are 0.
         body += self.corrected(changes)
         body += rule.converged()
-        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. Changes
-        # that are computed with a singular matrix are meaningless, so the loop then counts as not converged
-        # even if they are small.
+        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
+        # singular matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the change does not decrease although the matrix was computed in this sweep, more sweeps
-            # cannot help. The step then needs a better initial guess, which the continuation provides.
+            # If the change does not decrease with a new matrix, more sweeps cannot help. The step then needs
+            # a better initial guess.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
             # If the changes decrease slowly, a new matrix costs less than many more sweeps. In the first
-            # sweep ``previous`` is 0, so the next sweep computes no new matrix.
+            # sweep there is no previous change (``previous`` is 0), so the rate of decrease is not known.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -302,9 +298,8 @@ class _Newton(_Loop):
     def singular(self) -> Term:
         """Return the test whether the loop has failed because its matrix is singular.
 
-        Only loops that invert their matrix by elimination use this test. For small matrices, a formula
-        computes the inverse. If such a matrix is singular, the formula divides by zero, and the status is
-        NOT_FINITE.
+        The test is for matrices that are inverted by elimination. The inverse of a small matrix is computed
+        by a formula. If such a matrix is singular, the formula divides by 0, and the status is NOT_FINITE.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
@@ -313,7 +308,7 @@ class _Newton(_Loop):
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
-        # The age is 0 if no matrix was computed yet, or if the last matrix was used for ``period`` steps.
+        # If the age is 0, a new matrix is needed. Other statements set the age to 0 after ``period`` steps.
         sequence.append(Assign(self.making, negated(self.age > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
@@ -344,24 +339,23 @@ class _Newton(_Loop):
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that counts a matrix in the statistics.
+        """Return the statement that adds one matrix to the statistics.
 
-        The list is empty if nothing is counted.
+        If ``counting`` is False, the list is empty.
         """
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
         """Return the statements that compute and invert the matrix of one step, before its sweeps.
 
-        If the matrix is singular, the emitted function returns the status SINGULAR.
+        If elimination finds a singular matrix, the emitted function returns the status SINGULAR.
         """
         sequence = self.entries()
         if self.newton.inverted:
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # The function that counts sweeps records a failure if the status is not OK, so the status is set
-        # first.
+        # The status is set before the call of ``count_sweeps``, which reads the status to record a failure.
         sequence.append(Assign(STATUS, code(SINGULAR)))
         singular = inverted.equals(0)
         if self.counting:
@@ -384,8 +378,8 @@ class _Newton(_Loop):
     def cell(self, place: int) -> Term:
         """Return entry number ``place`` of the inverse matrix, counted row by row.
 
-        If a formula computes the inverse in each step, the entry is a scalar variable. In all other cases it
-        is an entry of an array.
+        Simplified Newton iteration keeps the inverse of a small matrix in scalar variables. All other inverse
+        matrices are arrays.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # The inverse is used in one step only and is not stored, so its entries can be scalar variables.
@@ -398,7 +392,7 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The next sweep cannot begin before this sum is computed. Adding in pairs shortens the wait.
+            # The sum is added in pairs, because a processor can add several pairs at the same time.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         # The loop below reads the residuals from an array, so the variables of the residuals are first copied

@@ -1,11 +1,11 @@
 """Step control for Taylor methods: the Taylor coefficients of the solution determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
-of the Taylor polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number
+of the Taylor polynomial. All norms are maximum norms. Let epsilon = atol + rtol |y|. The number
 (epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is exp(-0.7/(p - 1)) times the
-smaller of these two numbers. The last terms of the polynomial are then about as large as the tolerance
-(A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In the paper the tolerance also
-determines the degree, but here the degree is given.
+smaller of these two numbers. With this step size, the last two terms of the polynomial are smaller than
+epsilon. The formula is taken from A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1.
+In the paper the tolerance determines the degree, too. Here the degree is given.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ LEAST = 1e-30
 The formula divides by the norm, so a smaller norm is replaced by this number."""
 
 ROWS = 4
-"""The number of coefficient rows that the loop over Cauchy products reads in one iteration."""
+"""The number of array rows that one iteration reads in the loop for products of Taylor series."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -81,14 +81,14 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
     The functions of :func:`polynomial_step` are omitted if the emitted code already contains them. The tuple
-    is empty if the kernel has no Taylor expansion for step control.
+    is empty if the kernel has no Taylor expansion, or one that does not allow step control.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, a step of constant size also evaluates the Taylor polynomial. In this case
-    # ``polynomial_step`` has already added the functions of the polynomial to the emitted code.
+    # If the kernel has no outputs, the emitted code also contains the functions of ``polynomial_step``. These
+    # functions include the functions of the polynomial.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -101,14 +101,14 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
-    """Return the statements that compute the inner sums of order n = k + 1 for products of Taylor series.
+    """Return the statements that compute the inner sums for products of Taylor series.
 
-    The inner sum of a product of two series a and b is the sum of a_j b_{n-j} over 0 < j < n. There are
-    ``width`` products, one in each column of the arrays. Row j - 1 of ``left`` contains the coefficients a_j
-    of all products, and row j - 1 of ``right`` contains the coefficients b_j.
+    Let n be k + 1. The inner sum of order n of two series a and b is the sum of a_j b_{n-j} over 0 < j < n.
+    The number of products is ``width``. Each product has one column in the arrays ``left`` and ``right`` and
+    one entry in ``sums``. Row j - 1 of ``left`` contains a_j, and row j - 1 of ``right`` contains b_j.
     """
-    # Row 0 contains coefficients of order 1. The orders of two factors add up to n = k + 1, so the indices of
-    # their rows add up to k - 1.
+    # The orders of the two factors add up to k + 1. The row index of a coefficient is its order minus 1, so
+    # the two row indices add up to k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -119,13 +119,12 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
-        # The products are first added in pairs. The sums of the pairs do not depend on one another, so a
-        # processor can compute them at the same time.
+        # The products are added in pairs, because a processor can add several pairs at the same time.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The inner loop runs over the sums, because additions to different sums are independent. In one
-    # iteration it adds the products of ROWS rows to a sum, which is loaded and stored only once.
+    # The inner loop runs over the sums, because the sums do not depend on one another. Each iteration loads
+    # one sum, adds the products of ROWS rows, and stores the sum.
     many = For(
         j,
         k // ROWS,
@@ -161,8 +160,8 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
-        # The kernel that computes the Taylor coefficients has its own state: the coordinates in which the
-        # solution is expanded.
+        # The state of the kernel ``coefficients`` consists of the coordinates in which the solution is
+        # expanded.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
@@ -210,7 +209,7 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the declarations of all local arrays of a step."""
-        # ``start`` and ``moved`` are declared only if they differ from the arrays of the state and the trial.
+        # If ``start`` or ``moved`` is the same array as ``state`` or ``trial``, it is not declared twice.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
@@ -254,17 +253,17 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # ``width`` is the number m of inner sums, rounded up to an even number, which suits vector
-        # instructions.
+        # The number m of inner sums is rounded up to an even number, because vector instructions compute
+        # pairs.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
         # The last n outputs of the kernel ``first`` are the coefficients of order 1. Its other outputs are
-        # coefficients of order 0, which the later orders read.
+        # values that the loop over the orders needs.
         sums, values = own("sum", width), len(ends) - n
         operands = [value(x) for x in every.arrangement.outputs]
         padding = [number(0.0)] * (width - m)
         inner = (
-            # The order is a real variable, because the formulas divide by it.
+            # The order is a floating-point variable, because the formulas divide by it.
             Assign(ORDER_TERM, ORDER_TERM + 1.0),
             *self.numbers(symbols),
             *inner_sums(k, width, left, right, sums),
@@ -276,9 +275,8 @@ class _Controlled:
                 if s in symbols
             ),
             *computed(every),
-            # The kernel ``every`` computes with m products of Taylor series. Its outputs are m coefficients
-            # of the left factors, m coefficients of the right factors, and the coefficients of the solution
-            # of the next order.
+            # The kernel ``every`` has three groups of outputs: the coefficients of the m left factors, those
+            # of the m right factors, and the next coefficients of the solution.
             *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
             *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
             *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
@@ -302,12 +300,12 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute factors such as 1/order, if they are in ``symbols``.
+        """Return the statements that compute the numbers that depend only on the order, such as 1/order.
 
-        The factors depend only on the order of a Taylor coefficient.
+        Numbers whose names are not in ``symbols`` are omitted.
         """
-        # LINEAR is the Taylor coefficient of the time: 1 for order 1, and 0 for all higher orders. The order
-        # is a real number, so the test for order 1 is a comparison with 1.5.
+        # LINEAR is the Taylor coefficient of the function t: 1 for order 1, and 0 for all higher orders. The
+        # order is a floating-point number, so the test for order 1 is a comparison with 1.5.
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -333,8 +331,8 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last. Before this addition the sum is multiplied by h, which makes the rounding
-        # errors of all earlier additions small.
+        # The state is added last. The rounding errors of all earlier additions are small, because they are
+        # multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The value of the Taylor polynomial at the end of a step of size h."
@@ -360,7 +358,7 @@ class _Controlled:
         return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
 
     def rounded(self, x: float) -> Term:
-        """Return a constant in the format of the module."""
+        """Return the constant ``x``, rounded to the precision of the emitted code."""
         return number(self.plan.format.round(x))
 
     def run(self) -> Function:
@@ -386,8 +384,8 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
             If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
-            # No step is rejected, because the coefficients determine the step size before the step. The
-            # argument exists because the public function has the same arguments for all methods.
+            # The number of rejected steps is 0. The argument ``rejected`` is needed, because ``run_adaptive``
+            # has the same arguments for all methods.
             If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
             Return(STATUS),
         )
@@ -398,7 +396,7 @@ class _Controlled:
         n, p = self.size, self.degree
         moment = tuple(self.now if x is TIME else x for x in self.moment)
         bounded = both(self.length > 0.0, self.advised > self.length)
-        # If t + h equals t in floating-point arithmetic, the run would never reach the end.
+        # If t + h equals t in floating-point arithmetic, the run ends with the status TOO_SHORT.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
@@ -409,7 +407,7 @@ class _Controlled:
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
-            # The step size that the caller has given is a bound for the first step only.
+            # The step size of the caller does not bound the later steps.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
@@ -436,8 +434,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # The Taylor coefficients of the highest order are finite here. If the old state is finite
-                # too, a shorter step would give a finite state.
+                # The flag ``finite`` shows that the highest Taylor coefficients are finite. If the old state
+                # is finite, a shorter step would give a finite state, so the status is TOO_FAR.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )
