@@ -54,12 +54,12 @@ class Term:
     """A symbolic expression: an operation on terms, a name, or a constant.
 
     - ``text`` is the name of a variable, function or field.
-    - ``own`` is True for a name from the kernel. It may have to be replaced, if the target language does not
-      allow it.
+    - ``own`` is True for a name from the kernel. If the target language does not allow this name, the emitted
+      code uses another one.
     - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
       only at run time.
     - ``optional`` is True for an argument that the caller may omit.
-    - ``cell`` is True for an array with one entry, through which a function returns a value.
+    - ``cell`` is True for an array with one entry. A function returns a value in this entry.
     """
 
     op: str
@@ -145,8 +145,8 @@ class Term:
 
     def part(self, start: int, size: int) -> Term:
         """Return the part of an array that consists of ``size`` entries and begins at index ``start``."""
-        # If the part is the whole array, the array itself is returned. It is then printed without an offset
-        # in C and without a slice in Python.
+        # If the part is the whole array, the array itself is returned. The emitted code then contains no
+        # offset in C and no slice in Python.
         if start == 0 and self.shape == (size,):
             return self
         return Term("part", (self,), self.kind, number=start, shape=(size,))
@@ -158,16 +158,16 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number in an expression gets the kind of the other operand. The index of an array has no other
-# operand. The placeholder _COUNT replaces it, so the index becomes a count.
+# In an expression, the other operand determines the kind of a Python number. The index of an array has no
+# other operand. The placeholder _COUNT makes the index a count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # A Python number gets the kind of the other operand ``like``. In ``x + 1``, the number 1 is a count if
-    # ``x`` is a count, and a real if ``x`` is a real.
+    # If the other operand ``like`` is a count or a flag, a Python number becomes a count. Otherwise it is a
+    # real.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -179,7 +179,7 @@ def _arithmetic(op: str, x: Term, y: Operand) -> Term:
 
 
 def _comparison(op: str, x: Term, y: Operand) -> Term:
-    # A Python number on the right gets the kind of the term on the left.
+    # The term on the left determines the kind of a Python number on the right.
     return Term(op, (x, _term(y, x)), Kind.FLAG)
 
 
@@ -199,12 +199,12 @@ def flag(name: str) -> Term:
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return the real variable or array that the kernel calls ``name``."""
+    """Return the real variable of the kernel with this name, or the array with this name and shape."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return a record or an array of records, called ``name``. ``of`` is the name of the record type."""
+    """Return a record called ``name``, or an array of records. The record type is called ``of``."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
@@ -243,8 +243,7 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel as a term. A symbol becomes the variable of this name."""
-    # A single symbol becomes a term with the operation ``name``. Other functions then recognise the variable
-    # without examining an expression.
+    # A single symbol becomes a term with the operation ``name``, like every other variable.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -273,17 +272,17 @@ def negated(test: Term) -> Term:
 def select(test: Term, yes: Operand, no: Operand) -> Term:
     """Return the term that has the value ``yes`` if the test is true, and the value ``no`` otherwise.
 
-    In array languages, both values are computed and one is selected.
+    An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If only one of the two values is a term, the other value gets the kind of this term. Two Python numbers
-    # become reals.
+    # If only one of ``yes`` and ``no`` is a term, this term determines the kind of the Python number. Two
+    # Python numbers become reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
 
 
 def call(function: str, *args: Term) -> Term:
-    """Return the call of a function of the mathematical library, such as ``sqrt`` or ``copysign``."""
+    """Return a call of a mathematical function, such as ``sqrt`` or ``copysign``."""
     return Term("call", args, Kind.REAL, function)
 
 
@@ -295,7 +294,7 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the maximum of one or more reals."""
     listed = tuple(terms)
-    # For a single term no call is emitted, because ``max(x)`` of a number is an error in Python.
+    # A single term needs no call. In Python, the call ``max(x)`` would be an error if ``x`` is a number.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -310,7 +309,7 @@ def is_finite(x: Term) -> Term:
 
 
 def all_finite(*terms: Term) -> Term:
-    """Return the term that tests whether all given reals are finite, or all entries of a given array."""
+    """Return the term that tests whether all reals are finite. For an array, all entries are tested."""
     return Term("finite", terms, Kind.FLAG)
 
 

@@ -1,10 +1,10 @@
 """The public functions for a single step and for a run of equal steps, which can store a trajectory.
 
-A run ends after the last step or after a failure. After a failure, the caller gets the state before the
-failed step. The rows of the trajectory are the initial state and the states after ``stride`` steps, after
-2 ``stride`` steps, and so on.
+A run ends after the last step, or earlier if a step fails. In this case the caller gets the state before
+the failed step. The first row of the trajectory is the initial state. After every ``stride`` steps, the run
+adds one row.
 
-A small explicit kernel is inlined in the loop of the run, so that its state remains in registers.
+A small explicit kernel is inlined in the loop of the run, so that the state remains in registers.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ inlined."""
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    This is the case if the state is small and the kernel needs no separate function.
+    The state must be small, and the step must be explicit. Substeps, deferred flows, error estimates, a
+    dependence on time and possible exceptions prevent inlining.
     """
     kernel = plan.kernel
-    # In an inlined kernel, a small state remains in registers. If each step were a function call, the state
-    # would be stored in memory.
+    # In an inlined kernel, a small state remains in registers. A function call would store it in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
@@ -77,14 +77,14 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if Python may raise an exception where C computes an infinity or a NaN."""
-    # A kernel that may raise an exception is not inlined, because a separate function must catch the
-    # exception and return a status.
+    # Emitted Python code catches exceptions in the function of the kernel. A kernel that may raise an
+    # exception therefore keeps its own function.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Builds the statements that store the rows of a trajectory if the caller asks for a trajectory."""
+    """Builds the statements that store a trajectory. The trajectory is optional in the emitted code."""
 
     plan: Plan
 
@@ -92,14 +92,14 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The argument for the array of the rows. The caller may omit it."""
+        """The optional array of the caller. Each row is for one state of the trajectory."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # States are recorded if the caller has passed a stride and an array. This is tested once, before
-            # the loop. The loop tests only the flag ``recording``.
+            # If the caller has passed a stride and an array, states are recorded. The stride and the array
+            # are tested before the loop. The loop tests only the flag ``recording``.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -113,14 +113,17 @@ class Rows:
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write the next row."""
         return [
-            # The rows are counted, because a division of the number of steps by the stride would take longer.
+            # The row index is increased by 1. This avoids a division by the stride.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
 
 
 def own_memory(plan: Plan) -> list[Statement]:
-    """Return the statement that creates the memory of a run: data that a step stores for the next step."""
+    """Return a list with the statement that creates the memory of a run.
+
+    A step stores data for the next step in this memory. If steps store nothing, the list is empty.
+    """
     # The memory is local to a run. The result of a run therefore depends only on its arguments, and several
     # threads can make runs at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
@@ -140,9 +143,10 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that make one step from ``state`` and set the status.
 
-    If the kernel has a warm start and no substeps, the statements also call the continuation after a failure.
+    If the kernel has a warm start, a failed step is repeated by continuation in h. If a step has substeps,
+    the continuation is applied to each substep, inside the emitted function.
     """
-    # A run with steps of constant size needs no error estimate, so this argument is omitted.
+    # A run with steps of constant size needs no error estimate. The array for the estimate is omitted.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
@@ -151,8 +155,7 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step. Run-time inputs are constant during this step."""
     state = plan.state()
-    # The inputs of a single step are numbers and not a function of time. The caller can change the numbers
-    # between two steps.
+    # For a single step, the inputs are numbers. The caller can change these numbers between two steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
@@ -162,7 +165,8 @@ def step(plan: Plan) -> Function:
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
-    # If the kernel uses the momentum in the body frame, the state is converted before and after the kernel.
+    # If the kernel uses the momentum in the body frame, ENTER converts the momentum before the step. LEAVE
+    # converts it back to the space frame.
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
     if carried:
@@ -188,12 +192,12 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
-    """Return the three functions of a run whose loop contains the statements of the kernel.
+    """Return the three functions of a run with an inlined kernel.
 
-    They are the loop over the steps, the function that finds the cause of a failure, and the public function.
+    The first function contains the loop over the steps. The second function finds the cause of a failure. The
+    third function is public.
     """
-    # The loop is a separate function, because the function that finds the cause of a failure also calls it,
-    # with a step of size zero.
+    # The public function and the function ``cause`` both call the loop, so it is a separate function.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
@@ -217,10 +221,9 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The function LEAVE adds the increase of the space momentum since the initial state. Therefore
-            # ``rows.add`` first copies ``state`` to the row: this array still contains the initial state,
-            # because the run changes only ``moving``, the state in the body frame. LEAVE then turns the row
-            # into the current state in the space frame.
+            # During the run, ``state`` is the initial state in the space frame, and ``moving`` is the current
+            # state in the body frame. ``rows.add`` copies ``state`` to the row. LEAVE then updates the row to
+            # the current state in the space frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
@@ -230,8 +233,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # LEAVE fails if a momentum that is finite in the body frame overflows in the space frame. The
-        # caller's state is then still the initial state, so the number of completed steps is set to zero.
+        # If the momentum overflows in the space frame, LEAVE fails and does not change ``state``. The caller
+        # gets the initial state, so the number of completed steps is set to zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -250,12 +253,12 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The variables ``new`` contain the new state. A NaN in an entry of the old state that the kernel does not
-    # read would not appear in the new state, so these entries are tested too.
+    # The variables ``new`` contain the new state. The kernel may read only some entries of the old state. A
+    # NaN in an ``unread`` entry would not appear in the new state, so these entries are tested, too.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
-    # The new values are in separate variables, so they can be copied in any order.
+    # The new state is in separate variables, so its values can be copied in any order.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [
@@ -266,9 +269,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop changes local copies of the components of the state. Without local copies, compiled code
-        # would store the state in each step, because a compiler cannot exclude that the array of the
-        # trajectory overlaps the state.
+        # The loop changes local copies of the state, which remain in registers. The array ``state`` would be
+        # stored to memory in each step, because the array of the trajectory may overlap it.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -64,8 +64,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # All results are set to NaN if the norm is still too large after all halvings, or if the norm is a
-        # NaN. A comparison with a NaN is false, so the test is the negation of ``norm <= least``.
+        # If the norm is still too large after all halvings, all results are set to NaN. The same happens if
+        # the norm is a NaN: then ``norm <= least`` is false, and its negation is true.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -85,21 +85,20 @@ def _polynomial(
 ) -> list[Statement]:
     """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-    The degree is 4, 8, 12 or 16. It is the lowest degree that is accurate for a matrix with the norm
-    ``norm``: the remainder of the exponential series is below the rounding errors.
+    The matrix has the coordinates ``y``, and its norm is at most ``norm``. The degree is the lowest of 4, 8,
+    12 and 16 for which the remainder of the series is below the rounding errors.
     """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
-    # The coefficients are complex numbers. Horner's rule multiplies them by real numbers only, so the real
-    # parts ``even`` and the imaginary parts ``odd`` are computed separately. Even powers of i are real, and
-    # odd powers are imaginary.
+    # The coefficients are complex numbers, but Horner's rule multiplies them by real numbers only. Therefore
+    # their real parts ``even`` and imaginary parts ``odd`` are computed separately. The real parts come from
+    # the even powers of i.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
     for k in (3, 2, 1, 0):
-        # The number i^k/k! is real for even k and imaginary for odd k. Therefore it is added either to the
-        # real parts or to the imaginary parts.
+        # The number i^k/k! is real for even k and imaginary for odd k, so it changes only one of the parts.
         for parity, part in enumerate(parts):
             steps += _horner(part, trace, det, (coefficient[4 * group + k], k) if k % 2 == parity else None)
     square = [real(f"square_{k}") for k in range(SIZE)]
@@ -117,7 +116,7 @@ def _polynomial(
         Assign(trace, half_trace(coordinates)),
         Assign(det, determinant(coordinates)),
         *(Assign(x, zero) for part in parts for x in part),
-        # The exponent of the highest power is a multiple of 4, and i^4 = 1, so its coefficient is real.
+        # The degree n is a multiple of 4, so i^n = 1. The coefficient of the highest power is 1/n!.
         Assign(parts[0][0], coefficient[4 * groups]),
         # Each iteration makes four steps of Horner's rule. The loop runs from the highest powers to the
         # lowest.
@@ -132,18 +131,18 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements of one step of Horner's rule, P := i^k/k! + H P, for one part of P.
+    """Return the statements of one step of Horner's rule for the real or the imaginary part.
 
-    P is a polynomial in H of degree 2, because H^3 is replaced by ``trace`` H + ``det`` (the characteristic
-    equation). ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is None
-    if i^k/k! does not contribute to ``part``. Otherwise ``added`` is a pair: 1/k!, and the remainder of k
-    modulo 4.
+    The step replaces a polynomial P in the matrix H by i^k/k! + H P. The characteristic equation
+    H^3 = ``trace`` H + ``det`` keeps the degree of P at 2. ``part`` contains the real or the imaginary parts
+    of the coefficients of P. ``added`` contains 1/k! and k modulo 4. If i^k/k! does not contribute to
+    ``part``, ``added`` is None.
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
-        # The old coefficient of H^2 is saved, because it is overwritten before its last use.
+        # The old coefficient of H^2 is saved, because the last two statements still need it.
         Assign(last, part[2]),
         Assign(part[2], part[1]),
         Assign(part[1], part[0] + trace * last),
