@@ -23,9 +23,9 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the continuous extension of a method in the form that the printers use.
 
-    The order of the result is the smaller of two numbers: the order of the tableau's extension on vector
-    spaces, and the order of the method on the scene. :class:`MethodError` is raised for a method without an
-    extension.
+    The tableau's extension has an order on vector spaces, and the method has an order on the scene. The
+    continuous extension has the smaller of these two orders. :class:`MethodError` is raised for a method
+    without an extension.
     """
     from orderconds.checking.continuous import extension_order
 
@@ -74,9 +74,9 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if one of ``options`` is True.
+    """Raise :class:`MethodError` if an option is requested that excludes compensated summation.
 
-    Compensated summation cannot be combined with these options.
+    ``options`` maps the names of these options to True if the option is requested, otherwise to False.
     """
     for option, requested in options.items():
         if requested:
@@ -91,7 +91,7 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     """Return the description of a run to a given end time with ``events`` event functions.
 
     If ``dense`` is True, the result also contains the continuous extension of the method. ``degree`` is the
-    degree of the Taylor polynomial of a step, or 0 if a step evaluates no Taylor polynomial. MethodError is
+    degree of the Taylor polynomial of a step. For a step without a Taylor polynomial it is 0. MethodError is
     raised for a Taylor method with step-size control.
     """
     if count(events, "events") > MOST_EVENTS:
@@ -101,7 +101,7 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     if degree and method.adaptive:
         raise MethodError(
             f"the Taylor method {method.label} cannot run to a given end time with step control",
-            expected="steps of constant size, or a method with step control by an embedded method",
+            expected="steps of constant size, or step control by an embedded method",
             hint="leave out --adaptive or --integrate",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

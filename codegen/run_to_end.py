@@ -41,15 +41,15 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
-        An adaptive module chooses step sizes between ``least`` and ``greatest``, and ``h`` is its first step
-        size. All other modules ignore the tolerances and the bounds. They make steps of size ``h``, and only
+        An adaptive module chooses step sizes between ``least`` and ``greatest``. Its first step size is
+        ``h``. All other modules ignore the tolerances and the bounds. They make steps of size ``h``, and only
         the last step may be shorter. Output times and events do not change the step sizes. A terminal event
         ends the run. By default, ``end`` is the last output time.
 
-        TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
-        times that are not monotone, or not between t and end. StepFailed is raised if a step fails, or if
-        ``limit`` steps do not reach the end. The attribute ``arrival`` of the exception contains all results
-        before the failure.
+        TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
+        output times are not monotone, or if an output time is not between t and end. StepFailed is raised if
+        a step fails, or if ``limit`` steps do not reach the end. The attribute ``arrival`` of the exception
+        contains all results before the failure.
         """
         if not self.interface.integrated:
             raise TypeError("this module has no run to an end time; emit it with integrate=True")
@@ -79,8 +79,8 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate to the end by one or more calls of ``_integrate``.
 
-        A call returns early if its buffer of events is full. The next call then continues at the time that
-        the run has reached.
+        If the buffer of events is full, a call returns before the end. The next call continues at the time
+        at which this call stopped.
         """
         t, end, h = span
         restore = begun.form.restore

@@ -51,7 +51,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 def _part(arguments: Sequence[Expr]) -> Term | None:
     """Return the part of an array that contains exactly ``arguments``, in this order.
 
-    The array must contain the results of an earlier call. If there is no such array, None is returned.
+    If ``arguments`` are not consecutive results of one call, None is returned.
     """
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # If a function has a single result, the result is a scalar and not an array.

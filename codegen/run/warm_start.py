@@ -1,14 +1,14 @@
-"""Warm start: the solutions of previous steps are extrapolated to the initial guess of the next step.
+"""Warm start: the initial guess of a step is extrapolated from the solutions of previous steps.
 
-The extrapolation is polynomial. Its degree is increased while the backward differences of the solutions
-decrease. As soon as ``depth`` solutions are stored, the degree is adapted only once in eight steps. If the
-error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the earlier
-solutions are discarded, and only the latest solution is used.
+The guess is the value of a polynomial through the latest solutions. The degree of the polynomial is adapted
+to the sizes of the backward differences. As soon as ``depth`` solutions are stored, the degree is adapted
+only once in eight steps. If the error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns
+over the step, the earlier solutions are discarded. The next guess is then the latest solution.
 
-Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous in
-memory. The extrapolation of an unknown is a sum over these solutions. If there are at most :data:`FEW`
-unknowns, each sum is a scalar variable. With few unknowns, loops over arrays would take as long as the sweeps
-that the warm start saves.
+Each solution is stored twice in a ring buffer. Therefore the last ``depth`` solutions are always contiguous
+in memory. The guess for each unknown is a sum over these solutions. If there are at most :data:`FEW`
+unknowns, each sum is a scalar variable. For few unknowns, loops over arrays would take as long as the
+iterations that the warm start saves.
 """
 
 from __future__ import annotations
@@ -52,8 +52,7 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""As soon as ``depth`` solutions are stored, the degree of the extrapolation is adapted once in SELDOM
-steps."""
+"""If ``depth`` solutions are stored, the degree of the polynomial is adapted once in this number of steps."""
 
 _I = count("i")
 
@@ -67,8 +66,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # A ``select`` may compute both values, so an ``If`` is used. The guess without stored solutions takes
-    # more work, and it is usually needed only in the first step of a run.
+    # An ``If`` computes only one of the two guesses. The guess without stored solutions takes more work, and
+    # it is usually needed only in the first step of a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -90,8 +89,7 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; a solution is in two rows, so the latest solutions are contiguous",
             ),
         ]
-        # A loop uses its stored rate of convergence only if solutions are stored, so both are stored
-        # together.
+        # The rates of convergence of the loops are used only if solutions are stored.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of the implicit equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
@@ -111,13 +109,13 @@ def memory_record(plan: Plan) -> Record:
 def differences(start: Start) -> Table:
     """Return the table of the coefficients of backward differences.
 
-    Row k contains the coefficients of order k, the coefficient of the latest solution first.
+    Row k contains the coefficients of order k. The first coefficient multiplies the latest solution.
     """
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
-    # A loop reads the terms in pairs, so each row is padded with zeros. If the number of terms is odd, the
-    # last term is paired with a zero.
+    # ``difference_of_few`` reads the coefficients in pairs. Each row ends with a zero, because the number of
+    # coefficients can be odd.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
     about = "Backward differences: coefficients of order k in row k, latest solution first."
     return Table(_factors(start), padded, about)
@@ -130,7 +128,7 @@ def _factors(start: Start) -> Term:
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     """Return the statements that execute ``statement`` for the indices 0 to n - 1.
 
-    They are n separate statements if n is at most FEW, and a loop otherwise.
+    If n is at most FEW, the result contains n separate statements. Otherwise it contains one loop.
     """
     if n <= FEW:
         # A compiler can interleave separate statements. A loop with few iterations would be slower.
@@ -159,17 +157,15 @@ class WarmStart:
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
-        """Return the function that computes a backward difference of the solutions. The array ``sum``
-        receives the result.
+        """Return the function that writes a backward difference of the solutions to the array ``sum``.
 
-        The latest solution is added last, so that a processor can compute the rest of the sum before the
-        latest solution is known.
+        The latest solution is added last. The other terms can thus be added before that solution is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
         if self.n > FEW:
             i, j = _I, count("j")
-            # In the sum over j, the term with the index ``first`` contains the latest solution.
+            # In the sum over j, the term with j = ``first`` contains the latest solution.
             term = sign * self.factors[order][j] * self.values[self.place + (j - first)][i]
             inner = For(i, whole(self.n), (Assign(result[i], result[i] + term),))
             body = [
@@ -192,10 +188,10 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements that compute a backward difference if there are at most FEW unknowns.
+        """Return the statements that compute a backward difference for at most FEW unknowns.
 
-        The sum for each unknown is a scalar variable. Each iteration of the emitted loop adds the terms of
-        two solutions to all sums.
+        The sum for each unknown is a scalar variable. Each iteration of the emitted loop adds two terms to
+        each sum.
         """
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
@@ -208,12 +204,12 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # The two products are added to each other first. Each iteration then makes only one addition to
-            # each sum, and only this addition must wait for the previous iteration.
+            # The two products and their sum do not depend on the previous iteration. Only the addition to
+            # ``partial`` must wait for that iteration.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The loop runs from the oldest solution to the latest solution, which becomes known last.
+            # The loop starts at the oldest solution, because the latest solution is computed last.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -248,9 +244,8 @@ class WarmStart:
             Assign(self.place, place),
         ]
 
-        # Each solution is stored in two rows, at a distance of ``depth`` rows. The latest ``depth`` solutions
-        # are then contiguous for every value of ``place``, and the inner loops need no index modulo
-        # ``depth``.
+        # Each solution is stored in the rows ``place`` and ``place + depth``. The latest ``depth`` solutions
+        # are then contiguous, and the inner loops need no index modulo ``depth``.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
@@ -269,28 +264,28 @@ class WarmStart:
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
-        """Return the statements that discard all stored solutions if the last guess was bad."""
+        """Return the statements that discard the stored solutions after a bad guess."""
         moved = real("moved")
 
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The stored matrix of Newton's method is kept, because the loop that uses this matrix tests whether
-        # it needs a new one.
+        # The stored matrix of Newton's method is kept. The loop that uses this matrix tests whether a new
+        # matrix is needed.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The error of the guess is compared with the change of the unknowns over the step, so the test
-            # does not depend on units. This change is also the error of the simplest guess, the previous
-            # solution.
+            # The error of the guess and the change ``moved`` of the unknowns have the same units. ``moved``
+            # is also the error of the simplest guess: the previous solution.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        The degree is increased while the backward differences decrease with their order.
+        If the backward difference of the next higher order is smaller, the degree is increased by one.
+        Otherwise, if the difference of the next lower order is smaller, the degree is reduced by one.
         """
         size_now = real("size")
 
@@ -309,11 +304,11 @@ class WarmStart:
         adapt = (
             # If the solutions vary smoothly on the scale of h, their backward differences decrease with the
             # order. Rounding errors double with each order and dominate at high orders. The best degree of
-            # the extrapolation is the order of the smallest difference. It changes slowly, so the current
-            # degree is compared only with the next lower and the next higher degree.
+            # the extrapolation is the order of the smallest difference. The best degree changes slowly, so
+            # the current degree is compared only with the next lower and the next higher degree.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
-            # The difference of order ``degree`` + 1 needs ``degree`` + 2 solutions.
+            # A backward difference of order k is computed from k + 1 solutions.
             If(self.degree + 1 < self.known, higher),
             If(
                 grows,
@@ -321,8 +316,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # ``place`` is the row of the latest solution. It changes by one in each step, so it replaces a
-        # counter of steps.
+        # The row ``place`` of the latest solution changes by one in each step. Therefore ``place`` can be
+        # used as a counter of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

@@ -15,16 +15,16 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""The least number of entries of an array that is treated as a whole. A 5 x 5 matrix has 25 entries.
+"""The least number of entries of an array that is passed, tested or copied as a whole.
 
-In a shorter array, each entry is a scalar variable, which a compiler can keep in a register."""
+The entries of a shorter array are scalar variables, which a compiler can keep in registers."""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
     """Return the array whose entries are ``outputs``, in this order.
 
-    Only arrays that contain the results of a call are considered. None is returned if there is no such array,
-    or if there are fewer than SHORTEST outputs.
+    None is returned in two cases: the outputs are not the results of one call, or there are fewer than
+    SHORTEST outputs.
     """
     if len(outputs) < SHORTEST:
         return None
@@ -33,7 +33,7 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
     if results[0] is None:
         return None
     name = results[0][0]
-    # Output number k must be result number k of the call.
+    # The outputs must be the results of the same call, in the same order.
     if any(x != (name, k) for k, x in enumerate(results)):
         return None
     return own(name, len(outputs))
@@ -43,7 +43,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
     """Return the statements without long copies of parts of the array ``state``.
 
     An ``Array`` statement is removed if it declares a copy of at least SHORTEST consecutive entries of
-    ``state``. Calls whose argument is this copy get the part of the array ``state`` as their argument.
+    ``state``. Calls then use this part of ``state`` instead of the copy.
     ``symbols`` contains the names of the entries of the state.
     """
     places = {s: k for k, s in enumerate(symbols)}
@@ -51,13 +51,12 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
     result: list[Statement] = []
     for statement in sequence:
         if isinstance(statement, Array) and len(statement.values) >= SHORTEST:
-            # ``read`` contains, for each value, its index in the state, or None if it is no entry of the
-            # state.
+            # ``read`` contains the index of each value in the state. A value that is not in the state has the
+            # index None.
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # ``statement`` declares a copy of consecutive entries of the state. It is omitted, and later
-                # calls get a part of the array ``state`` as their argument.
+                # The copy is not declared. Calls use the part of ``state`` instead.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):

@@ -1,14 +1,18 @@
 """A Hamiltonian and its field in the body frame.
 
-The Hamiltonian H is a function of q and of the momentum P = Ad*_q mu in the body frame.
-Let W be the gradient of H with respect to P. Let tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0 and fixed P,
-where e_b are the basis elements of the Lie algebra. The field in the body frame is (W, N). It determines the
-field (xi, n) in the space frame:
+The Hamiltonian H is a function of q and of the momentum P = Ad*_q mu in the body frame. The field in the body
+frame consists of the velocity W and the force N. The velocity W is the gradient of H with respect to P. The
+force is
 
-    N = tau + ad*_W P,   xi = Ad_q W,   n = Ad*_{q^-1} N.
+    N = tau + ad*_W P,   tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0.
 
-If the inertia is fixed in the body, the kinetic energy becomes a quadratic form of P with constant
-coefficients. Then W is a constant matrix times P, and the inverse of this matrix gives P from W.
+Here e_b are the basis elements of the Lie algebra, and P does not depend on eps. The velocity xi and the
+force n in the space frame are
+
+    xi = Ad_q W,   n = Ad*_{q^-1} N.
+
+If the inertia is fixed in the body, the kinetic energy is a quadratic form of P with constant coefficients.
+Then W is a constant matrix times P, and the inverse of this matrix gives P from W.
 """
 
 from __future__ import annotations
@@ -32,15 +36,15 @@ if TYPE_CHECKING:
 
 DIGITS, AGREEING = 40, 30
 POINTS = 6
-"""Two formulas count as equal if their values agree at POINTS random points. The values are computed with
-DIGITS digits, of which AGREEING digits must agree.
+"""The constants of a numerical test whether two formulas are equal. The formulas are evaluated with DIGITS
+digits at POINTS random points. At each point, AGREEING digits must agree.
 """
 
 
 @dataclass(frozen=True)
 class BodyField:
     """The field in the body frame, as formulas in the coordinates of q and of the momentum P in the body
-    frame. The formulas use the symbols of mu for the components of P.
+    frame. In these formulas, the symbols of mu denote the components of P.
 
     The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W is a constant
     invertible matrix times P, ``inverse`` is the inverse of this matrix, as rows of numbers. Otherwise
@@ -94,10 +98,11 @@ def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonia
 def field_in_body(
     group: LeftTranslation, q: Sequence[str], mu: Sequence[str], roots: Sequence[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P.
+    """Return the velocity W and the force N in the body frame, as formulas in q and P.
 
-    ``roots`` are xi and n as formulas in q and mu. The field need not have a Hamiltonian. If a component of W
-    or N does not depend on q, its formula does not contain q.
+    ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
+    W = Ad_{q^-1} xi and N = Ad*_q n, with P = Ad*_q mu. In these formulas, the symbols of mu denote P. The
+    field need not have a Hamiltonian. A component that does not depend on q has a formula without q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -137,8 +142,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The kinetic energy cannot be computed at the neutral element, because the potential is singular
-        # there. If ``kinetic`` is zero, ``split`` differs from H, so this function returns ``moved``.
+        # The potential is singular at the neutral element, so the kinetic energy cannot be computed there.
+        # Without the kinetic energy, ``split`` differs from H, and ``moved`` is returned.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -166,8 +171,8 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The integer factor 10**AGREEING avoids a fraction as tolerance, because mpmath does not compare
-            # its numbers with fractions.
+            # The difference is multiplied by an integer, because mpmath does not compare its numbers with
+            # fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
         except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.
@@ -178,7 +183,7 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
     """Return the coefficients of P in the formula w.
 
-    The result is None if w is not linear in P or its coefficients are not constant.
+    The result is None if w is not a linear function of P with constant coefficients.
     """
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}

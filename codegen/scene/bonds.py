@@ -1,8 +1,8 @@
 """Bonds: energies of pairs of neighbours on a lattice.
 
-The offset of a bond is the difference between the lattice indices of its two sites. For each offset, a site
-is the first site of one bond and the second site of another bond. Thus the state of a site occurs in the
-energy of the site and in the energies of two bonds for each offset.
+The offset of a bond is the lattice index of its second site minus the lattice index of its first site. For
+each offset, a site belongs to two bonds. The site is the first site of one bond and the second site of the
+other bond.
 """
 
 from __future__ import annotations
@@ -23,9 +23,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Bond:
-    """The energy of the sites i and i + offset: a formula in the coordinates of both sites, parameters and
-    the time. The coordinates of the second site are ``neighbour(y, offset)``. In a Hamiltonian scene, y
-    contains only the coordinates of q.
+    """The energy of the sites with the lattice indices i and i + offset.
+
+    ``energy`` is a formula in the coordinates of both sites. The formula can also contain parameters and the
+    time. The coordinates are y for the site i and ``neighbour(y, offset)`` for the site i + offset. In a
+    Hamiltonian scene, y contains only the coordinates of q.
     """
 
     offset: Sequence[int]
@@ -35,18 +37,18 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return pairs (k, V) for all bonds of a site. V is the energy of the bond, and ``offsets[k]`` is the
-    offset from the site to the other site of the bond.
+    """Return a pair (k, V) for each bond of a site. V is the energy of the bond. The offset from the site to
+    the other site of the bond is ``offsets[k]``.
 
-    ``y`` contains the coordinates of a site that occur in energies of bonds. In a Hamiltonian scene these are
-    the coordinates of q, otherwise all coordinates.
+    ``y`` contains the coordinates of the site that can occur in V. In a Hamiltonian scene, ``y`` contains the
+    coordinates of q. In other scenes, ``y`` contains all coordinates.
 
-    The result contains two pairs for each element of ``bonds``, because the site i belongs to two such bonds.
-    It is the first site of the bond with the energy V(y_i, y_{i+offset}). It is the second site of the bond
-    with the energy V(y_{i-offset}, y_i).
+    Each element of ``bonds`` gives two pairs, because the site i belongs to two bonds with the same offset.
+    The site i is the first site in the energy V(y_i, y_{i+offset}). It is the second site in the energy
+    V(y_{i-offset}, y_i).
 
-    SceneError is raised for an energy that does not contain coordinates of both sites, or that contains
-    coordinates outside ``y``.
+    SceneError is raised in two cases: an energy does not contain coordinates of both sites, or an energy
+    contains coordinates of the site that are not in ``y``.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

@@ -1,8 +1,9 @@
 """Hamilton's equations on T*G in right trivialisation, from the partial derivatives of a Hamiltonian.
 
-The velocity is xi = D_2 H, and the force is n = -(D_1 H).q^-1, where D_1 and D_2 are the derivatives with
-respect to q and mu. In components, n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0, for the basis elements e_a
-(eq. 3.4 of H. Marthinsen's thesis). The equations of motion are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27).
+Let D_1 H and D_2 H be the derivatives of the Hamiltonian H with respect to q and mu. The velocity is
+xi = D_2 H, and the force is n = -(D_1 H).q^-1. Let e_a be the basis elements of the Lie algebra. The
+components of the force are n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0 (eq. 3.4 of H. Marthinsen's
+thesis). The equations of motion are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27).
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components n_a = -<dH, e_a.q> of the force, where e_a are the basis elements of the Lie
-    algebra. ``slope`` contains the derivatives of H with respect to the coordinates of q.
+    """Return the components of the force. ``slope`` contains the derivatives of the Hamiltonian H with
+    respect to the coordinates of q.
+
+    Component a is -d/deps H(exp(eps e_a) q) at eps = 0, where e_a is a basis element of the Lie algebra.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

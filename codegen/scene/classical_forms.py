@@ -1,11 +1,13 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
-A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as the
-scene states them, in the coordinates of the scene. If the group has left translations, a form uses velocities
-and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
-factor of the group has a covering group with fewer coordinates, a form uses an element of the covering
-group. For example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven
-equations for a unit quaternion and the momentum in the body.
+A form is a problem on R^n with a map to the state of the scene. The first form contains the equations of the
+scene in the coordinates of the scene. Another form can use the body frame, if the group has left
+translations. Its equations are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Here W is the velocity,
+P = Ad*_q mu is the momentum, and N is the force in the body frame.
+
+A further form can use a covering group, if a factor of the group has one. An element of the covering group
+has fewer coordinates. For example, a heavy top has twelve equations for a rotation matrix and the momentum.
+It has seven equations for a unit quaternion and the momentum in the body.
 """
 
 from __future__ import annotations
@@ -30,18 +32,18 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.values import Bindings
 
 PRINTED = "printed"
-"""The key (:attr:`ClassicalForm.key`) of the classical form with the equations as the scene states them."""
+"""The key (:attr:`ClassicalForm.key`) of the classical form in the coordinates of the scene."""
 
 
 @dataclass(frozen=True)
 class ClassicalForm:
     """A classical form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    A *state of the form* is a point of this R^n.
+    A *state of the form* is a vector of coordinates on this R^n.
 
     - ``to_scene``: formulas that compute the state of the scene from the state of the form.
-    - ``from_scene``: formulas that compute the state of the form from a state near the initial state of the
-      scene.
+    - ``from_scene``: formulas that compute the state of the form from the state of the scene. They hold near
+      the initial state of the scene.
     - ``state``: a text that describes the coordinates on R^n.
     - ``conversion``: a text that describes the map to the state of the scene.
     """
@@ -57,25 +59,24 @@ class ClassicalForm:
 
     @property
     def printed(self) -> bool:
-        """True if the form contains the equations as the scene states them."""
+        """True if the form contains the equations of the scene in the coordinates of the scene."""
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the scene that belongs to the point ``state`` of R^n."""
+        """Return the state of the scene, computed from the state ``state`` of the form."""
         return tuple(evaluate(self.to_scene, domain, self.problem.values(domain, tuple(state))))
 
     def form_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the point of R^n that belongs to ``state``, a state of the scene near its initial state."""
+        """Return the state of the form. ``state`` is a state of the scene near the initial state."""
         return tuple(evaluate(self.from_scene, domain, self.scene.values(domain, tuple(state))))
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the classical forms of a scene. The first form contains the equations of the scene. The other
-    forms use the body frame or coordinates of covering groups.
+    """Return the classical forms of a scene. The first form contains the equations of the scene. Each other
+    form uses the body frame, coordinates of covering groups, or both.
 
-    For each choice of coordinates, the frame is chosen in which the equations need fewer operations. The body
-    frame needs fewer operations if the inertia is fixed in the body, and the space frame if the inertia is
-    fixed in space.
+    Each of these other forms uses the frame in which its equations need fewer operations. If the inertia is
+    fixed in the body, this is the body frame. If the inertia is fixed in space, this is the space frame.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -112,15 +113,15 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define classical forms.
 
-    One change uses the body frame. It is yielded if the equations then need fewer operations. The other
-    change uses coordinates of covering groups. It is yielded if a factor of the group has a covering group.
+    If the equations need fewer operations in the body frame than in the space frame, the change to the body
+    frame is yielded. If a factor of the group has a covering group, the change to coordinates of covering
+    groups is yielded.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change that keeps the frame and the coordinates is not yielded, because its form would repeat the
-        # equations of the scene.
+        # In all other cases, the equations of the form would be the same as those of an earlier form.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -129,11 +130,10 @@ def _changes(problem: Problem) -> Iterator[_Change]:
 class _Leaf:
     """A factor of the group that is not itself a product of groups, with its coordinates.
 
-    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the classical form. Among
-    the components of an element of the Lie algebra, the first component of the factor has the index ``at``.
-    If ``own`` are coordinates of a covering group, ``cover`` is equal to ``group``, and its type
-    :class:`Covered` gives access to the covering map. Otherwise ``cover`` is None, and ``own`` is equal to
-    ``symbols``.
+    ``symbols`` are the coordinates of the factor in the scene. ``own`` are the coordinates of the factor in
+    the classical form. ``at`` is the index of the first component of the factor in a vector of the Lie
+    algebra. If ``own`` are coordinates of a covering group, ``cover`` is the group with its covering map.
+    Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
     """
 
     group: LieGroup
@@ -148,16 +148,14 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element as a formula in the coordinates ``own``, for use in the right-hand sides
-        of the equations.
-        """
+        """Return the group element in the right-hand sides of the equations, as a formula in ``own``."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element as a formula in ``own``, for use in the state of the scene.
+        """Return the group element in the state of the scene, as a formula in ``own``.
 
-        If ``own`` are coordinates of a covering group, they may contain numerical errors. They are therefore
-        projected onto the covering group, so that the result is an element of the group.
+        Numerical errors can move the coordinates of a covering group off this group. The formula projects the
+        coordinates onto the covering group, so that the result is an element of the group.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -174,8 +172,8 @@ class _Leaf:
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
         """Return formulas for the coordinates ``own`` in the symbols of the scene.
 
-        The formulas are valid near ``initial``, the coordinates ``symbols`` of the factor in the initial
-        state.
+        ``initial`` contains the coordinates of the factor in the initial state. The formulas hold near this
+        point.
         """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
@@ -263,7 +261,7 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The invariants are functions of the state of the scene, so its symbols are replaced by ``to_scene``.
+        # The invariants are formulas in the symbols of the scene. These symbols are replaced by ``to_scene``.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -363,9 +361,9 @@ class _Change:
         )
 
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the field of the scene, as formulas in the symbols of the scene.
+        """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        If ``body`` is True, the field is expressed in the body frame.
+        In the body frame, the symbols of the momentum mu denote the momentum P.
         """
         problem = self.problem
         if not self.body:
@@ -381,8 +379,7 @@ class _Change:
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
         """Return the velocity of a factor in the body frame.
 
-        If the factor does not offer the capability :class:`LeftTranslation`, return the velocity in the space
-        frame.
+        If the factor has no left translations, return the velocity in the space frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
