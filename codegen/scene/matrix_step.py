@@ -1,11 +1,11 @@
-"""Methods y1 = M y0 for the equation y' = A(t) y, where the scene defines the matrix M by a formula.
+"""Methods y1 = M y0 for the equation y' = A(t) y. The scene defines the matrix M by a formula.
 
-M is a formula in the step size h and in matrices A(t + c h), where c is a number. A formula is formed
-from :func:`A`, :data:`IDENTITY`, :data:`h` and numbers by sums, products and the functions :func:`bracket`,
+The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
+where c is a number (:func:`A`). They are combined by sums, products and the functions :func:`bracket`,
 :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the Lie algebra, an
-element of the group, or another matrix. The group computes the exponential of an algebra element. All
-logarithms and all other exponentials are computed by closed forms. The closed forms exist only for 2 x 2
-matrices. A formula for larger matrices is rejected if it needs a closed form.
+element of the group, or another matrix. The group computes the exponential of an algebra element. All other
+exponentials and all logarithms need a closed form. The closed forms exist only for 2 x 2 matrices. If a
+formula for larger matrices needs a closed form, the formula is rejected.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -86,11 +86,11 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The type of the formula: the smallest known set that contains all its values."""
+        """The type of the formula: a set that contains all values of the formula."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
 
     @abstractmethod
     def text(self) -> str:
@@ -133,11 +133,11 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """ALGEBRA, because the matrix A of the equation y' = A(t) y is in the Lie algebra at all times."""
+        """The type is ALGEBRA, because the matrix A(t) is in the Lie algebra at all times t."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         return at.group.hat(at.domain, at.generator(self.c))
 
     def text(self) -> str:
@@ -151,11 +151,11 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """GROUP, because the unit matrix is an element of the group."""
+        """The type is GROUP, because the unit matrix is an element of the group."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         n = at.group.order
         return tuple(at.domain.rational(int(i == j)) for i in range(n) for j in range(n))
 
@@ -188,7 +188,7 @@ class Sum(Binary):
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         return tuple(x + y for x, y in zip(self.left.value(at), self.right.value(at), strict=True))
 
     def text(self) -> str:
@@ -205,7 +205,7 @@ class Product(Binary):
         return Place.GROUP if self._both(Place.GROUP) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         return product(at.domain, self.left.value(at), self.right.value(at), at.group.order)
 
     def text(self) -> str:
@@ -222,7 +222,7 @@ class Commutator(Binary):
         return Place.ALGEBRA if self._both(Place.ALGEBRA) else Place.MATRIX
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         x, y, d, n = self.left.value(at), self.right.value(at), at.domain, at.group.order
         return tuple(a - b for a, b in zip(product(d, x, y, n), product(d, y, x, n), strict=True))
 
@@ -259,7 +259,7 @@ class Multiple(MatrixFormula):
         return (self.of,)
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         factor = at.domain.rational(*self.factor.value.as_integer_ratio())
         for _ in range(self.factor.power):
             factor = factor * at.domain.h
@@ -271,7 +271,7 @@ class Multiple(MatrixFormula):
 
 
 class Projected(Unary):
-    """The orthogonal projection of a matrix onto the Lie algebra, for the scalar product tr(X^T Y).
+    """The orthogonal projection of a matrix onto the Lie algebra. The scalar product is tr(X^T Y).
 
     For sp(2n) the projection of X is (X + J X^T J)/2, as in equation (4.18) of H. Marthinsen's thesis. J is
     the matrix (0, I; -I, 0), where I is the n x n unit matrix.
@@ -279,11 +279,11 @@ class Projected(Unary):
 
     @property
     def place(self) -> Place:
-        """ALGEBRA, because the projection of a matrix is an element of the Lie algebra."""
+        """The type is ALGEBRA, because the projection of a matrix is in the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         d, entries = at.domain, self.of.value(at)
         result = []
         for row in projection_matrix(at.group):
@@ -310,15 +310,14 @@ class Exponential(Unary):
     def closed_forms(self) -> Iterator[MatrixFormula]:
         """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        This formula is the exponential of a matrix X. If the type of X is ALGEBRA, the group computes the
-        exponential. Otherwise a closed form is needed.
+        If the type of the argument is ALGEBRA, the group computes this exponential without a closed form.
         """
         if self.of.place is not Place.ALGEBRA:
             yield self
         yield from super().closed_forms()
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         x = self.of.value(at)
         if self.of.place is Place.ALGEBRA:
             return at.group.exp(at.domain, at.group.vee(at.domain, x))
@@ -334,19 +333,16 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """MATRIX, because the types of formulas do not show whether a logarithm is in the Lie algebra."""
+        """The type is MATRIX, because it is not known whether the logarithm is in the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, and all functions in its argument that are computed by closed forms.
-
-        These functions are exponentials and logarithms.
-        """
+        """Yield this logarithm, followed by the closed forms in its argument."""
         yield self
         yield from super().closed_forms()
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
-        """Return the value of the formula, a matrix, row by row."""
+        """Return the entries of the matrix, row by row."""
         return _logarithm(at.domain, self.of.value(at))
 
     def text(self) -> str:
@@ -387,7 +383,7 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 class MatrixStep:
     """A method that the scene defines: y1 = M y0, where M is the value of ``formula``.
 
-    ``order`` is the order of the method, as stated by the scene.
+    ``order`` is the order of the method. The scene states the order.
     """
 
     formula: MatrixFormula
@@ -395,7 +391,7 @@ class MatrixStep:
 
     @property
     def canonical(self) -> bool:
-        """True if the type of the formula is GROUP. Then the matrix M of each step is in the group."""
+        """True if the type of the formula is GROUP. The matrix M is then an element of the group."""
         return self.formula.place is Place.GROUP
 
 
@@ -403,8 +399,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
-    For n x n matrices the result has n^2 rows and columns. The result acts on the column that contains the
-    entries of a matrix row by row.
+    For n x n matrices the result has n^2 rows and columns. The projection multiplies this result by the
+    vector of the n^2 entries of a matrix, listed row by row.
     """
     from sympy import Matrix, Rational
 
@@ -439,7 +435,7 @@ def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
 def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     """Return the logarithm of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    The result is log(det m)/2 I + g N. The number g depends on z = det N and r = sqrt(|z|):
+    The result is log(det m)/2 I + g N. The number g depends on s, z = det N and r = sqrt(|z|):
 
     - If z > 0, g = atan2(r, s)/r.
     - If z = 0, g = 1/s.
@@ -448,8 +444,8 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives. For z > 0 the logarithms are not used, and s + r or s - r may be
-    # negative. The argument of the logarithms is then replaced by 1.
+    # ``choose`` evaluates both alternatives. The logarithms are used only for z <= 0. For z > 0 their
+    # arguments are 1, because s + r or s - r may be negative.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

@@ -18,12 +18,11 @@ left-trivialised momentum.
 
 
 def with_frame(problem: Problem, frame: str) -> Problem:
-    """Return the problem with the given frame of momenta. Emitted code then accepts and returns momenta in
-    this frame.
+    """Return the problem with a frame in which emitted code accepts and returns momenta.
 
-    ``frame`` is ``space`` for the right-trivialised momentum mu or ``body`` for the left-trivialised momentum
-    Ad*_q mu. Inside a step, emitted code computes with mu in both cases. If ``frame`` is ``body``,
-    :class:`SceneError` is raised for a problem without momenta and for an abelian group.
+    The frame ``space`` means the right-trivialised momentum mu. The frame ``body`` means the left-trivialised
+    momentum Ad*_q mu. Inside a step, emitted code always computes with mu. The frame ``body`` needs a problem
+    with momenta on a group that is not abelian. :class:`SceneError` is raised for any other problem.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))
@@ -37,7 +36,7 @@ def with_frame(problem: Problem, frame: str) -> Problem:
 
 
 def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state. Its momentum is in the frame that emitted code uses for its arguments."""
+    """Return the initial state, with the momentum in the frame of emitted code."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
     if scene.body_group is None:

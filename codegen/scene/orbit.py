@@ -1,8 +1,8 @@
-"""Sample points on the manifold of a problem, at which formulas are compared.
+"""Comparison of formulas at sample points on the orbit of the initial state under the group.
 
-The points are on the orbit of the initial state under the group, and their times lie in the time span of the
-problem. States on the orbit satisfy equations such as g^T g = 1. Therefore two formulas may be equal on the
-orbit, although they differ for arbitrary values of the coordinates. Numbers have 40 digits.
+States on the orbit satisfy equations such as g^T g = 1. Therefore two formulas may be equal on the orbit,
+although they differ for other values of the coordinates. Each sample point has a time in the time span of the
+problem. The computations use 40 digits.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""A sum counts as zero if its absolute value is at most TOLERANCE times the sum of the absolute values of its
-terms, plus FLOOR. TOLERANCE is much larger than the unit roundoff, because the terms may contain cancellation
-errors.
+"""The relative tolerance of the test whether a sum is zero. The absolute value of the sum must be at most
+TOLERANCE times the sum of the absolute values of the terms, plus FLOOR. TOLERANCE is much larger than the
+unit roundoff, because cancellation may increase the rounding errors of the terms.
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute error that is allowed in addition to TOLERANCE. It is needed if all terms of a sum are small
-differences of nearly equal numbers, because the relative errors of such differences may be large."""
+"""The absolute tolerance of the test whether a sum is zero. A small difference of nearly equal numbers may
+have a large relative error. If all terms are such differences, TOLERANCE is not sufficient."""
 
 POINTS = 4
-"""The number of sample points: the initial state, and three random points of its orbit."""
+"""The largest number of sample points: the initial state, and three random points of its orbit."""
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """A problem y' = f(y).y, with the sample points at which formulas are compared.
+    """A problem y' = f(y).y, and sample points on the orbit of its initial state.
 
     ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f. A
     Hamiltonian problem is written as an equation on the group T*G, which acts on itself by multiplication.
@@ -59,16 +59,15 @@ class Orbit:
 
     @cached_property
     def domain(self) -> PreciseDomain:
-        """The arithmetic with which formulas are evaluated for a comparison: floating-point numbers with 40
-        digits.
-        """
+        """The number domain of all computations: floating-point numbers with 40 digits."""
         return PreciseDomain(0, DIGITS)
 
     @cached_property
     def points(self) -> tuple[dict[str, mpmath.mpf], ...]:
-        """Values of all symbols at the initial state and at points of its orbit where f is finite.
+        """The sample points. Each point contains the values of all symbols.
 
-        Raises :class:`SceneError` if f is not finite at the initial state.
+        The points are the initial state and random points of its orbit. Points where f is not finite are
+        omitted. :class:`SceneError` is raised if f is not finite at the initial state.
         """
         d, rng = self.domain, random.Random("orbit")
         constants = {name: d.number(x) for name, x in self.parameters.items()}
@@ -101,7 +100,7 @@ class Orbit:
         return start
 
     def values(self, roots: Sequence[Expr], values: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...] | None:
-        """Return the values of formulas at a point; None if a formula cannot be evaluated at this point."""
+        """Return the values of formulas at a point, or None if a formula cannot be evaluated."""
         try:
             return tuple(evaluate(roots, self.domain, values))
         except (ArithmeticError, ValueError):
@@ -118,15 +117,15 @@ class Orbit:
         return self.action.velocity(self.domain, self.group, f, y)
 
     def sized(self, total: mpmath.mpf, terms: Sequence[mpmath.mpf]) -> bool:
-        """Return True if ``total``, the sum of ``terms``, is zero up to rounding errors of these terms."""
+        """Return True if the sum ``total`` of ``terms`` is zero up to rounding errors."""
         size = sum((abs(x) for x in terms), self.domain.rational(0))
         relative, absolute = (self.domain.rational(*x.as_integer_ratio()) for x in (TOLERANCE, FLOOR))
         return bool(abs(total) <= relative * size + absolute)
 
     def vanish(self, roots: Sequence[Expr]) -> bool:
-        """Return True if all formulas are zero, up to rounding, at all sample points.
+        """Return True if all formulas in ``roots`` are zero, up to rounding, at all sample points.
 
-        The result is False if a formula cannot be evaluated at one of the points.
+        If a formula cannot be evaluated at one of the points, the result is False.
         """
         values = [self.values(roots, point) for point in self.points]
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
@@ -137,7 +136,7 @@ class Orbit:
 
 
 def orbit_of(problem: Problem) -> Orbit:
-    """Return the :class:`Orbit` of a problem, with the formulas of f and the sample points."""
+    """Return the :class:`Orbit` of a problem."""
     field = problem.as_field()
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(

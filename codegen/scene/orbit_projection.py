@@ -1,8 +1,8 @@
-"""Tests whether the orbit of the initial state is open, and whether the projection of the action reaches it.
+"""Two tests of the orbit of the initial state: Is the orbit open? Does the action project onto the orbit?
 
 The projection is :meth:`Action.to_orbit`. If the action has no formula for a projection, ``to_orbit`` returns
-the point unchanged. This result is correct for an open orbit, because an open orbit contains all points near
-each of its points. On any other orbit, a numerical method that relies on ``to_orbit`` leaves the orbit.
+the point unchanged. For an open orbit this is correct, because all points near a point of the orbit are on
+the orbit. If the orbit is not open, a numerical method that needs the projection leaves the orbit.
 """
 
 from __future__ import annotations
@@ -17,25 +17,26 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The allowed distance from the orbit after a projection, divided by the distance before the projection.
+"""The largest allowed ratio of the perpendicular displacement after a projection to the displacement before.
 
 The test :func:`reaches_orbit` displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and
-projects the displaced point. After a projection onto the orbit, the perpendicular displacement is only about
-DISPLACEMENT^2. The test allows REDUCED * DISPLACEMENT.
+projects the displaced point. Near the initial state, the orbit deviates from its tangent space by only about
+DISPLACEMENT^2. The test allows a perpendicular displacement of REDUCED * DISPLACEMENT.
 """
 
 INDEPENDENT = 1e-8
-"""A vector counts as a linear combination of given vectors if the length of its perpendicular part
-is below INDEPENDENT times the length of the vector.
+"""The tolerance of the test whether a vector is a linear combination of given vectors.
+
+The length of the part that is perpendicular to the given vectors must be at most INDEPENDENT times the length
+of the vector. If the vector is shorter than 1, the bound is INDEPENDENT.
 """
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Return True if the orbit of the initial state is an open set, or if the projection of the action maps
-    points near the initial state onto the orbit.
+    """Return True if the projection of the action maps points near the initial state onto the orbit.
 
     The test displaces the initial state in each direction perpendicular to the orbit, and projects the
-    displaced point.
+    displaced point. If the orbit is open, no such direction exists, and the result is True.
     """
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))
@@ -53,8 +54,8 @@ def reaches_orbit(problem: Problem) -> bool:
 def orbit_is_open(problem: Problem) -> bool:
     """Return True if the orbit of the initial state is an open set of the space of coordinates.
 
-    This is the case if the tangent space of the orbit has as many dimensions as the state has coordinates.
-    The orbit of an abelian group need not be open: the orbits of SO(2) in the plane are circles.
+    The orbit is open if the dimension of its tangent space is the number of coordinates. For example, the
+    orbits of SO(2) in the plane are circles, which are not open.
     """
     field = problem.as_field()
     start = tuple(map(float, field.initial(FloatDomain(0.0))))
@@ -71,10 +72,9 @@ def _tangent(field: Problem, start: tuple[float, ...]) -> list[list[float]]:
 def _orthonormal(
     vectors: Sequence[Sequence[float]], known: Sequence[Sequence[float]] = ()
 ) -> list[list[float]]:
-    """Return vectors that form, together with ``known``, an orthonormal basis of the span of all given
-    vectors.
+    """Extend the orthonormal vectors ``known`` to an orthonormal basis of the span of all given vectors.
 
-    The vectors in ``known`` must be orthonormal; the result does not contain them.
+    The result contains only the new basis vectors.
     """
     basis: list[list[float]] = []
     for vector in vectors:

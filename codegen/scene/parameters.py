@@ -23,7 +23,7 @@ class Parameter(sympy.Symbol):  # type: ignore[misc]
     __slots__ = ("default",)
 
     def __new__(cls, name: str, p: int, q: int = 1) -> Parameter:
-        """Return the symbol; sympy creates symbols in ``__new__``."""
+        """Return a new symbol with the default value p/q."""
         symbol: Parameter = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.default = (p, q)
         return symbol
@@ -41,7 +41,7 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
     __slots__ = ("formula",)
 
     def __new__(cls, name: str, formula: sympy.Expr) -> Signal:
-        """Return the symbol; sympy creates symbols in ``__new__``."""
+        """Return a new symbol with the default ``formula``."""
         symbol: Signal = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.formula = formula
         return symbol
@@ -75,9 +75,9 @@ def param(name: str, default: object) -> Parameter:
 def signal(name: str, formula: object = 0) -> Signal:
     """Return a sympy symbol for a function of time, for example a control input or a measured load.
 
-    ``formula`` may contain t and parameters. Emitted code evaluates ``formula``, or reads the signal at run
-    time if the option ``emit --input NAME`` is given. :class:`SceneError` is raised for a formula that sympy
-    cannot read.
+    ``formula`` may contain t and parameters. Emitted code evaluates ``formula``. With the option
+    ``emit --input NAME``, emitted code reads the signal at run time instead. :class:`SceneError` is raised
+    for a formula that sympy cannot read.
     """
     try:
         return Signal(name, sympy.sympify(formula, strict=True))

@@ -1,11 +1,11 @@
-"""Problems: scenes in the form in which the interpreter and the compiler evaluate them.
+"""Problems: the internal form of scenes, which the interpreter and the compiler use.
 
-The sympy formulas of a scene are converted once to exact expressions, in which equal subexpressions are
-shared. Derivatives are computed by reverse differentiation. The interpreter and the compiler then evaluate
-the formulas over their own number domains, such as floats, series or expressions.
+The sympy formulas of a scene are converted once to exact expressions that share equal subexpressions.
+Derivatives are computed by reverse differentiation. The formulas can be evaluated in several number domains,
+such as floats, series or expressions.
 
-A step program is the list of operations of one step of a method. A problem defines the values of these
-operations.
+A step program is the list of operations of one step of a method. A problem computes the operations that
+depend on the group, the action or the equation.
 """
 
 from __future__ import annotations
@@ -55,7 +55,10 @@ TIME = "t"
 
 @dataclass(frozen=True)
 class StateField:
-    """A block of the state: its name, its kind, its coordinates, and expressions for their initial values."""
+    """A block of the state: a point, a group element or a dual vector.
+
+    ``symbols`` are the coordinates, and ``initial`` are the expressions for their initial values.
+    """
 
     name: str
     kind: Kind
@@ -65,7 +68,7 @@ class StateField:
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene in the form that step programs evaluate: group, action, state, and a field or a Hamiltonian.
+    """The internal form of a scene: a group, an action, a state, and a field or a Hamiltonian.
 
     The equation of a field scene is y' = f(y).y. The equations of a Hamiltonian scene are q' = xi.q and
     mu' = n - ad*_xi mu.
@@ -74,19 +77,19 @@ class Problem:
       ``t``. Large matrices and semilinear equations have no ``roots``.
     - ``paired``: True if the state is (q, mu).
     - ``parts``: named summands of the Hamiltonian.
-    - ``flows``: for each part, the exact flow that splitting methods compose.
-    - ``stated``: for each part whose flow the scene gives by formulas, the formulas for (q, mu) after the
-      time tau.
-    - ``runtime``: the parameters that stay inputs of emitted code.
-    - ``fixed``: the names and values of parameters whose default value has been replaced.
-    - ``open_roots``: ``roots`` with the symbols of ``signals`` in place of their formulas.
+    - ``flows``: the exact flow of each part. Splitting methods compose these flows.
+    - ``stated``: formulas for (q, mu) after the time tau, for each part whose flow the scene gives by
+      formulas.
+    - ``runtime``: the parameters that are arguments of emitted code.
+    - ``fixed``: the names and values of parameters with a new value in place of the default.
+    - ``open_roots``: ``roots``, where each signal is a symbol and not replaced by its formula.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
-    - ``body_group``: the group, if emitted code reads and returns momenta in the body frame.
+    - ``body_group``: the group if emitted code uses momenta in the body frame, otherwise None.
     - ``evolution``: the coordinates in which Taylor's method computes a step.
     - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
-    - ``matrices``: the field, if it is given by formulas of matrices (:mod:`codegen.scene.matrix_formula`).
+    - ``matrices``: the field as formulas of matrices, or None (:mod:`codegen.scene.matrix_formula`).
     - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
       conjugate to the time (:mod:`codegen.scene.linear_extension`).
     - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
@@ -94,7 +97,7 @@ class Problem:
       ``roots`` also contain the coordinates of neighbours.
     - ``semilinear``: the formulas of u' = L u + N(u) (:mod:`codegen.scene.semilinear`).
     - ``figures``: the figures in the file of the scene (:mod:`codegen.scene.figure`).
-    - ``derived``: a cache of problems that are derived from this problem, such as its ambient equation.
+    - ``derived``: a cache of problems that are derived from this problem.
     """
 
     name: str
@@ -137,7 +140,7 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        On a lattice, the states outside an open boundary must also be independent of the time.
+        If a lattice has an open boundary, the states outside must not depend on the time either.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
@@ -149,12 +152,12 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time.
+        """True if the field does not depend on the state. The equation is then y' = A(t).y.
 
-        On a lattice, the field of a site must also be independent of the states of neighbours.
+        On a lattice, the field of a site must not depend on the states of neighbours either.
         """
-        # If the field is given by formulas of matrices, ``roots`` may be empty. The test of ``roots`` at the
-        # end of this function would then return True for every field.
+        # If the field is given by formulas of matrices, ``roots`` may be empty. The test in the last line
+        # cannot be used, because it is true for empty ``roots``.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -166,8 +169,8 @@ class Problem:
     def is_hamiltonian(self) -> bool:
         """True if the state is (q, mu).
 
-        The operation ``hamilton`` of step programs then computes the pair (xi, n) of the equations q' = xi.q
-        and mu' = n - ad*_xi mu.
+        For this state, the operation ``hamilton`` computes the pair (xi, n) of the equations q' = xi.q and
+        mu' = n - ad*_xi mu.
         """
         return self.paired
 
@@ -189,18 +192,18 @@ class Problem:
             )
         if not self.roots:
             raise SceneError(
-                f"a field without formulas in coordinates, because the {self.group.dim} coordinates of "
-                f"{self.group.name} are too many",
+                f"a field without formulas in coordinates, because {self.group.name} has too many "
+                f"coordinates ({self.group.dim})",
                 where=self.name,
-                expected="a matrix with at most eight rows, for which the scene has formulas in coordinates",
+                expected="a scene with formulas in coordinates, that is, a matrix with at most eight rows",
                 hint='use a smaller matrix; the commands "emit" and "converge" work for every number of rows',
             )
 
     def as_field(self) -> Problem:
-        """Return a Hamiltonian problem with the state y = (q, mu), written as y' = f(y).y with f = (xi, n).
+        """Return a Hamiltonian problem as an equation y' = f(y).y, where y = (q, mu) and f = (xi, n).
 
-        The group of the result is T*G, which acts on itself by left multiplication. A problem with any other
-        state is returned unchanged.
+        The group of the result is T*G, which acts on itself by left multiplication. If the state is not
+        (q, mu), the problem is returned unchanged.
         """
         if not self.paired:
             return self
@@ -210,17 +213,16 @@ class Problem:
         return replace(self, group=group, action=action, state=(point,), paired=False)
 
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
-        """Return the values of all symbols: the coordinates of the state, the parameters and the time, which
-        is 0 by default.
+        """Return the values of all symbols: the coordinates of the state, the parameters and the time t.
 
-        If the domain consists of expressions, run-time parameters stay symbols.
+        The default of t is 0. In an :class:`ExprDomain`, run-time parameters stay symbols.
         """
         return {**dict(zip(self.symbols, state, strict=True)), **self.scalars(domain, t)}
 
     def scalars(self, domain: Domain, t: S | None = None) -> Bindings:
-        """Return the values of the parameters and of the time t, which is 0 by default.
+        """Return the values of the parameters and of the time t.
 
-        If the domain consists of expressions, run-time parameters stay symbols.
+        The default of t is 0. In an :class:`ExprDomain`, run-time parameters stay symbols.
         """
         values: Bindings = {}
         for name, number in self.parameters.items():
@@ -232,8 +234,9 @@ class Problem:
         return values
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the operation ``name`` of a step program. The group, the action or the scene
-        defines the operation. If the operation truncates a series, ``order`` is the truncation order.
+        """Return the results of the operation ``name`` of a step program.
+
+        If the operation truncates a series, ``order`` is the truncation order.
         """
         if name in TRUNCATED:
             return (TRUNCATED[name](self.group, domain, *args, order),)
@@ -274,7 +277,7 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return F v, where F is a product of functions of ad_x. ``word`` contains the factors of F.
+        """Return W(ad_x) v, where W is the product of the functions in ``word``.
 
         If ``dual`` is true, ad*_x replaces ad_x.
         """
@@ -289,8 +292,12 @@ class Problem:
     def body(self) -> BodyField | None:
         """The field in the body frame, or None.
 
-        The value is None in four cases: the problem has no Hamiltonian, the group has no body frame, signals
-        are read at run time, or there is a force that is not a derivative of the Hamiltonian.
+        The value is None in four cases:
+
+        - The problem has no Hamiltonian.
+        - The group has no body frame.
+        - Emitted code reads signals at run time.
+        - A force is not a derivative of the Hamiltonian.
         """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
@@ -309,8 +316,8 @@ class Problem:
     def _field(self, domain: Domain, args: Values) -> Values:
         """Return the field of the problem.
 
-        The field is f for an equation y' = f(y).y. If the state is (q, mu), the field is the pair (xi, n) of
-        the equations q' = xi.q and mu' = n - ad*_xi mu.
+        If the state is (q, mu), the equations are q' = xi.q and mu' = n - ad*_xi mu, and the field is the
+        pair (xi, n). Otherwise the equation is y' = f(y).y, and the field is f.
 
         ``args`` contains the blocks of the state, and possibly the time as the last entry.
         """
@@ -318,8 +325,8 @@ class Problem:
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # An ExprDomain forms the formulas of emitted code. These contain the signals in ``inputs`` as
-            # symbols, because the caller of emitted code passes the values of the signals at the stage times.
+            # In the formulas of emitted code, the signals in ``inputs`` are symbols. The caller of the code
+            # passes the values of these signals at the stage times.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])
@@ -328,7 +335,7 @@ class Problem:
         return (result[: self.group.dim], result[self.group.dim :]) if self.paired else (result,)
 
     def stated_step(self, domain: Domain, name: str, y: Vector[S], t: S) -> Vector[S]:
-        """Return the point after a step of a method that the scene defines by a formula of matrices."""
+        """Return the state after one step from y, for a method of the scene (:attr:`steps`)."""
         from codegen.scene.matrix_step import Evaluation
 
         product = self.group.offers(DirectProduct) if self.carries_momentum else None
