@@ -82,14 +82,13 @@ def monotone(t: float, times: object) -> list[float]:
     one_way = all(x >= 0 for x in steps) or all(x <= 0 for x in steps)
     if not one_way or not all(map(math.isfinite, given)):
         raise ValueError(
-            f"expected finite times in t_eval that only increase, or only decrease, from t = {t}; "
-            "sort the times"
+            f"expected finite times in t_eval, in increasing or decreasing order from t = {t}; sort the times"
         )
     return given
 
 
 def described(x: object) -> str:
-    """Return the type of an argument, with its value if it is a number or a text.
+    """Return the type of an argument. For a number or a text, the result also contains the value.
 
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')

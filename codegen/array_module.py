@@ -1,4 +1,4 @@
-"""The base class of the Python objects that call emitted modules for lattices and semilinear equations."""
+"""The base class of emitted modules for lattices and for semilinear equations."""
 
 from __future__ import annotations
 

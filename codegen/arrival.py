@@ -44,7 +44,7 @@ class StepFailed(ArithmeticError):
     last completed step. The caller can continue the run from this state.
 
     If :meth:`Integrator.adaptive` or :meth:`Integrator.integrate` raises the error, the attribute ``arrival``
-    contains this state, its time, and the proposed size of the next step. Otherwise ``arrival`` is None.
+    contains the last state, its time, and the proposed size of the next step. Otherwise ``arrival`` is None.
     """
 
     arrival: Arrival | None = None
@@ -74,7 +74,7 @@ class Arrival:
     status: Status = Status.OK
     """EVENT if a terminal event ended the run, and OK if the run reached its end time.
 
-    In the attribute ``arrival`` of a :class:`StepFailed`, this is the status of the failed step.
+    If a step failed, ``status`` is the status of this step.
     """
 
 
@@ -84,8 +84,8 @@ class Reached:
 
     - ``state``, ``t``, ``h``: the last state, its time, and the proposed size of the next step.
     - ``rows``: the states at the output times.
-    - ``events``: the zeros of event functions. Each is a tuple of the index of the event function, the time,
-      the direction of the zero, and the state.
+    - ``events``: a tuple for each zero of an event function. The tuple contains the index of the function,
+      the time, the direction (1 for a rising and -1 for a falling function), and the state.
     - ``accepted``, ``rejected``: the numbers of accepted and of rejected steps.
     - ``reason``: the reason for a failed step.
 
@@ -105,14 +105,13 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """The numbers of iterations in a run.
+    """Statistics of the iterations in a run.
 
     A block is a system of equations that each step solves by iteration.
 
     - ``sweeps``: for each block, the number of iterations in the whole run.
     - ``most``: the largest number of iterations for one block in one step.
-    - ``failed``: the position of the block that could not be solved. The first block has the position 1. If
-      all blocks were solved, ``failed`` is 0.
+    - ``failed``: the number of the block that could not be solved, or 0. The first block has the number 1.
     - ``matrices``: the number of Newton matrices that were computed.
     """
 
@@ -124,7 +123,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The arguments of a run after they were checked.
+    """The checked arguments of a run.
 
     - ``form`` converts results to the type of the caller's state.
     - ``numbers`` are the coordinates of the state.
@@ -142,8 +141,7 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step. The state in the error has the type of the caller's state.
 
-        If an iteration did not converge, the error message recommends shorter steps. The message also names
-        the solvers that the module does not use.
+        If an iteration did not converge, the message recommends shorter steps or another solver.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]

@@ -1,9 +1,9 @@
-"""Emitted modules: their files, and the manifest of the folder to which they are written.
+"""Emitted modules: their files, and the manifest of a folder.
 
 The file ``manifest.json`` has an entry for each module and target. An entry contains the digests of the files
-of the module. The files of the module are written first, then the manifest. If the process is killed before
-it writes the manifest, some digests can be wrong. Writing the module again repairs the folder. Only one
-process at a time writes to a folder.
+of the module. The files of a module are written before the manifest. If a process is killed before the
+manifest is complete, the digests can be wrong. Writing the module again repairs the folder. Only one process
+at a time writes to a folder.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class Artifact:
         A missing folder is created. A module in the folder is replaced if it has the same name and the same
         target. Other modules are not changed.
 
-        A module of another scene or method is replaced only if one of the two module names was chosen with
-        the option ``--prefix``. Otherwise InputError is raised. InputError is also raised if the folder
-        cannot be written to.
+        InputError is raised if the old module belongs to another scene or method. If the old or the new
+        module was emitted with the option ``--prefix``, this error is not raised. InputError is also raised
+        if the folder cannot be written to.
         """
         folder = Path(directory)
         try:
@@ -73,9 +73,8 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace a module of another scene or method.
 
-        ``entry`` is the manifest entry of a module in the folder. The module in the folder is replaced if the
-        two modules have the same name and the same target. No error is raised if one of the two names was
-        chosen with the option ``--prefix``.
+        ``entry`` is the manifest entry of the other module. A module replaces a module with the same name and
+        the same target. If one of these modules was emitted with the option ``--prefix``, no error is raised.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -95,7 +94,7 @@ def writing(folder: Path) -> Iterator[None]:
     Before the block begins, temporary files of killed processes are removed.
     """
     with locked(folder) as held:
-        if held:  # without the lock, a temporary file may belong to a process that is writing it
+        if held:  # without the lock, another process may be writing a temporary file
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)
@@ -153,11 +152,11 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     """Read a module from a folder.
 
-    ``module`` is the name of the module, and ``target`` is its target language. An empty text matches all
-    names or all targets.
+    ``module`` is the name of the module, and ``target`` is its target language. If ``module`` is empty, all
+    names match. If ``target`` is empty, all languages match.
 
-    InputError is raised if no module matches or several modules match. It is also raised if a file of the
-    module is missing, cannot be read, or was changed after it was emitted.
+    InputError is raised if the number of matching modules is not one. InputError is also raised if a file of
+    the module is missing, was changed, or cannot be read.
     """
     folder = Path(directory)
     try:

@@ -1,9 +1,9 @@
 """Compile emitted C to a shared object in a cache.
 
-If the sources, the compiler and its flags have not changed, the shared object in the cache is used again.
+If the cache contains a shared object of the same sources, compiler and flags, nothing is compiled.
 
-The compiler writes into a temporary folder inside the cache. The finished file is then written atomically
-into the cache (:mod:`codegen.cache_entry`). Thus two processes may build the same module at once.
+Two processes may build the same module at the same time. Each process compiles in its own temporary folder
+and writes the finished file atomically into the cache (:mod:`codegen.cache_entry`).
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class CompileError(InputError):
 class Compiler:
     """A C compiler.
 
-    ``command`` contains the words of its command. ``version`` is the first line that the compiler prints for
+    ``command`` contains the name of the program and its options. ``version`` is the first line of output for
     the option ``--version``.
     """
 
@@ -106,8 +106,8 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    If the cache contains an undamaged shared object of these files, the files are not compiled. If ``again``
-    is true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
+    If the cache contains a shared object for these files, and its digest is correct, nothing is compiled. If
+    ``again`` is true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
 
     CompilerMissing and CompileError may be raised. InputError is raised if the shared object cannot be
     written.
@@ -155,16 +155,15 @@ def compile_files(
 ) -> None:
     """Write files into a directory, and compile the C files to the file ``output``.
 
-    ``files`` maps file names to texts. CompileError is raised if the compiler fails or needs more than
-    ``seconds``. CompilerMissing is raised if the compiler does not exist.
+    ``files`` maps file names to texts, and ``seconds`` is a time limit. If the compiler fails or exceeds the
+    time limit, CompileError is raised. CompilerMissing is raised if the compiler does not exist.
     """
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into ``directory``. The caller removes this folder, even
-    # after an error.
+    # The compiler writes its temporary files into ``directory``, which the caller removes.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)
@@ -193,11 +192,11 @@ def _finished(
 ) -> subprocess.CompletedProcess[str]:
     """Run a compiler and return its exit status and output.
 
-    ``seconds`` is the time limit. After the time limit or an interrupt, the compiler and the programs that it
-    has started are killed.
+    ``seconds`` is the time limit. If TimeoutExpired or another exception is raised, all processes of the
+    compiler are killed.
     """
-    # A compiler starts other programs, such as an assembler. These programs would continue if only the
-    # compiler were killed, so all processes belong to one process group.
+    # A compiler starts other programs, such as an assembler. The compiler and these programs form a process
+    # group, so one signal kills all of them.
     with subprocess.Popen(
         command,
         cwd=directory,

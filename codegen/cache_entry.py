@@ -1,10 +1,10 @@
 """The cache: a folder of computed files, which are called entries.
 
-For each entry, a second file contains the digest of its content. An entry is used only if it is a regular
-file, belongs to the user, and has the content of this digest. Otherwise the entry is computed again.
+For each entry, a second file contains the SHA-256 digest of the entry. An entry must be a regular file of the
+user, and the digest must be correct. Otherwise the entry is computed again.
 
 The compiled code in the cache is executed, so only the user has access to the folder. If the folder cannot be
-used, a temporary folder replaces it until the process ends.
+used, the process uses a temporary folder.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Change the mode of a folder, so that only its owner has access.
+    """Remove the access of other users to a folder.
 
     OSError is raised if another user owns the folder, or if the mode cannot be changed.
     """
@@ -87,7 +87,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    # A forked worker process must not remove the folder.
+    # A forked worker process must not remove the folder of its parent process.
     if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -122,9 +122,10 @@ def keep(entry: Path, content: bytes) -> None:
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files atomically. Only the user can read the files. ``contents`` maps paths to contents.
+    """Write files atomically. Only the user can read the files.
 
-    If one of the paths is a folder, the folder and its content are removed.
+    ``contents`` maps the path of each file to its bytes. If a folder has one of these paths, the folder is
+    removed.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)
@@ -148,9 +149,9 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a working folder inside the cache, and remove the folder at the end of the block.
+    """Create a working folder inside the cache. The folder is removed at the end of the ``with`` block.
 
-    Folders and files that killed processes have left are removed first.
+    Before the block begins, old working folders and temporary files of killed processes are removed.
     """
     _sweep(folder)
     temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
@@ -159,7 +160,7 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove old temporary files, and old working folders that no process has locked."""
+    """Remove old unlocked working folders and old temporary files."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:

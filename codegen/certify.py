@@ -1,4 +1,4 @@
-"""The order of a method, as the header of emitted code states it.
+"""The order of a method, for the comment at the head of emitted code.
 
 For most methods the order is computed from the order conditions. The order in the tableau file is not used.
 """
@@ -22,21 +22,20 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 DOUBLE_BITS = 53
-"""The number of significant bits of a double: rounding causes a relative error of at most 2^-53."""
+"""The number of significant bits of a double. The relative rounding error is at most 2^-53."""
 
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """The order of a method, and how it was established.
+    """The order of a method, and the kind of its proof.
 
-    - ``certificate`` names the kind of proof. :meth:`text` explains each kind.
+    - ``certificate`` is the kind of proof. :meth:`text` explains each kind.
     - ``failing`` contains the conditions of order ``order`` + 1 that the method violates.
-    - ``bound`` is true if no condition failed up to the largest examined order. In this case the method may
-      have a higher order.
-    - ``classical`` is the name of a classical family if the group is abelian and the method reduces to a
-      method of this family. Otherwise ``classical`` is ''.
-    - ``radius`` is '' if the uncertainty of the coefficients is at most the rounding error of a double.
-      Otherwise ``radius`` is this uncertainty, and the certificate is "none".
+    - ``bound`` is true if ``order`` is a lower bound: all examined conditions hold.
+    - ``classical`` is the name of a classical family, or ''. If ``classical`` is a name, the group is abelian
+      and ``order`` is the order in this classical family.
+    - ``radius`` is usually ''. If the uncertainty of the coefficients exceeds the rounding error of a double,
+      ``radius`` is this uncertainty and the certificate is "none".
     """
 
     order: int
@@ -47,7 +46,7 @@ class CertifiedOrder:
     radius: str = ""
 
     def text(self) -> str:
-        """Return the order and an explanation of its certificate as a text for the header."""
+        """Return the order and an explanation of its proof, for the comment at the head of emitted code."""
         how = {
             "construction": "each step evaluates the Taylor polynomial of this degree",
             "stated": "the scene states this order",
@@ -72,9 +71,8 @@ class CertifiedOrder:
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions apply to a method.
 
-    If ``method.family`` is a family for which code can be emitted, its
-    :meth:`codegen.lower.base.Lowering.conditions` returns the result. Otherwise the result is the family with
-    the name ``method.family_label``.
+    If code can be emitted for the family of the method, the result comes from
+    :meth:`codegen.lower.base.Lowering.conditions`. Otherwise the family has the name ``method.family_label``.
     """
     from orderconds import families
 
@@ -84,14 +82,13 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family.
+    """Return the order of a method for a scene.
 
-    On an abelian group, the methods of some families reduce to classical methods. The order in the classical
-    family is then computed first. If the coefficients have enough digits to determine this order, the
-    function returns this order.
+    If the group of the scene is abelian, the methods of some families reduce to classical methods. If the
+    coefficients of such a method have enough digits, the result is the order in the classical family.
 
-    In all other cases the result is the order in the family of the method. MethodError is raised if the
-    coefficients have too few digits to determine this order.
+    In all other cases, the result is the order in the family of the method. MethodError is raised if the
+    coefficients have too few digits for this order.
     """
     from orderconds.checking import check
 
@@ -111,10 +108,10 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence for the header about the effect of rounded coefficients.
+    """Return a sentence about the effect of rounding, for the comment at the head of emitted code.
 
-    The coefficients are rounded to the precision ``target``. The sentence contains the size of the residuals
-    of the order conditions for these coefficients. ``order`` is the order of the method.
+    The coefficients are rounded to the precision ``target``. The sentence states the largest residual of the
+    order conditions for the rounded coefficients. ``order`` is the order of the method.
     """
     from orderconds import families
 
@@ -142,7 +139,7 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Coefficients that were given as doubles are exact: emitted code contains the same doubles.
+    # In double precision, coefficients that are given as doubles are emitted without rounding.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

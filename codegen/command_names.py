@@ -1,6 +1,6 @@
 """Names of scenes and methods in the command that regenerates a module.
 
-Folders are removed from these names. Names with characters that a shell would interpret are quoted.
+The path of a folder is removed from a name. Names with characters that a shell would interpret are quoted.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The commands of the compiler. Each command has its own module.
+"""The commands that emit and test integrators. Each command has its own module.
 
 ``orderconds`` finds the commands through the entry points of the installed package.
 """

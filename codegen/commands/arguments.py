@@ -13,7 +13,7 @@ Command = TypeVar("Command", bound=Callable[..., object])
 
 
 def scene_names() -> tuple[str, ...]:
-    """Return the names of all scenes that `orderconds list scenes` lists."""
+    """Return the names in the output of `orderconds list scenes`."""
     from codegen import scenes
 
     return scenes.every_name()

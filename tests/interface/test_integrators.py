@@ -238,7 +238,7 @@ def test_messages_name_the_arguments_of_python() -> None:
 
 
 def test_wrong_times_have_a_message() -> None:
-    with pytest.raises(ValueError, match="only increase, or only decrease"):
+    with pytest.raises(ValueError, match="in increasing or decreasing order"):
         rigid("python").trajectory(START, 0.1, t_eval=[0, 1, 0.5])
     with pytest.raises(TypeError, match="exactly one of the arguments steps and t_eval"):
         rigid("python").trajectory(START, 0.1)
