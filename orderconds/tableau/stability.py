@@ -1,12 +1,17 @@
 """A- and L-stability of a Runge-Kutta method, decided in exact arithmetic from the stability function.
 
 The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where 1 is the
-vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two conditions
-hold. First, every zero of Q has positive real part (Routh's test). Second, |P(iy)| <= |Q(iy)| for all real y.
-For this condition, Sturm's test is applied to the difference |Q(iy)|^2 - |P(iy)|^2, which is a polynomial in
-y^2. An A-stable method is L-stable if and only if deg P < deg Q (Hairer and Wanner, *Solving Ordinary
-Differential Equations II*, Sections IV.3 and IV.5). The result is undecided if the coefficients are balls
-(intervals), or if the computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
+vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two
+conditions hold:
+
+- Every zero of Q has positive real part. This condition is decided by Routh's test.
+- |P(iy)| <= |Q(iy)| for all real y. For this condition, Sturm's test is applied to |Q(iy)|^2 - |P(iy)|^2, a
+  polynomial in y^2.
+
+An A-stable method is L-stable if and only if deg P < deg Q (Hairer and Wanner, *Solving Ordinary Differential
+Equations II*, Sections IV.3 and IV.5). For coefficients that are balls (intervals), the result can be
+undecided. The result is also undecided if the computation would take too long (:data:`LARGEST`,
+:data:`EFFORT`).
 """
 
 from __future__ import annotations
@@ -28,9 +33,9 @@ coefficients."""
 
 
 LARGEST = 100
-"""The largest number of rows of a diagonal block of A. The matrix A is treated as a block triangular matrix.
-If a block is larger, stability is not decided. For a rational block of this size, the computation takes a
-second."""
+"""The largest number of rows in a diagonal block of the matrix A, which may be block triangular. If a block
+has more rows, stability is not decided. For a rational block with this number of rows, the computation
+takes a second."""
 
 EFFORT = 10**11
 """The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the
@@ -55,8 +60,8 @@ class StabilityFunction(Struct, frozen=True):
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     """Decide whether the method is A-stable and L-stable. The keys of the result are ``a_stable`` and
-    ``l_stable``. Both values are None if a sign cannot be decided, for example for balls (intervals), or if
-    the exact computation would take too long.
+    ``l_stable``. Both values are None if the exact computation would take too long. For balls (intervals),
+    both values are None if a sign cannot be decided.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -97,12 +102,13 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
-    """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
-    The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    """Decide whether a composition of midpoint rules with step sizes gamma_i h is A-stable and L-stable. The
+    keys of the result are ``a_stable`` and ``l_stable``. The stability function of the composition is
+    R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. If gamma_i is
-    negative, R has a pole in the left half plane, and the composition is not A-stable. There is one
-    exception: if gamma_j = -gamma_i for some j, the factors of gamma_i and gamma_j cancel.
+    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. If
+    gamma_j = -gamma_i, the factors of gamma_i and gamma_j cancel. If a negative gamma_i remains, R has a pole
+    in the left half plane, and the composition is not A-stable.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -148,16 +154,16 @@ class _Limited:
 
 
 def _bits(x: Element) -> int:
-    """Return the largest number of bits of a rational coefficient of x. Here x is an element of Q or of a
-    number field. The bits of the numerator and of the denominator are added."""
+    """Return the number of bits of the longest rational coefficient of x, an element of Q or of a number
+    field. The bits of numerator and denominator are added."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the work of ``count`` multiplications from the remaining work. Each factor is assumed to have
-    as many bits as the longest of ``numbers``. If ``quadratic`` is true, the work of one multiplication grows
-    with the square of this number of bits. Otherwise, the work grows linearly."""
+    """Subtract the estimated work of ``count`` multiplications from the remaining work. Let n be the number
+    of bits of the longest of ``numbers``. If ``quadratic`` is true, the estimate is quadratic in n.
+    Otherwise, it is linear in n."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -197,8 +203,8 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
-    """Return det(I - zA) as a polynomial in z, by the method of Faddeev and LeVerrier. If A is block
-    triangular, the result is the product of the determinants of the diagonal blocks."""
+    """Return det(I - zA) as a polynomial in z. If A is block triangular, the determinants of the diagonal
+    blocks are multiplied. The determinant of a block is computed by the method of Faddeev and LeVerrier."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):
@@ -230,7 +236,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
     """Return True if every zero of Q has positive real part. For this test, Routh's scheme of Q(-z) is
-    computed. The result is True if the first column of the scheme has no zero and no change of sign.
+    computed. The result is True if all entries of the first column are non-zero and have the same sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -248,9 +254,11 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Return True if |R(iy)| <= 1 for all real y. For R = P/Q, let E be |Q(iy)|^2 - |P(iy)|^2 as a polynomial
-    in x = y^2. The result is True if E is zero, or if E has a positive leading coefficient and no positive
-    zero of odd multiplicity.
+    """Return True if |R(iy)| <= 1 for all real y.
+
+    Let R = P/Q. The difference E = |Q(iy)|^2 - |P(iy)|^2 is a polynomial in x = y^2. The result is True if
+    E >= 0 for all x >= 0. If E is not the zero polynomial, two properties are tested: the leading coefficient
+    of E is positive, and every positive zero of E has even multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -297,8 +305,8 @@ def _changes(values: Sequence[Element], ring: SignedRing) -> int:
 
 
 def _squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
-    """Return square-free polynomials f_1, f_2, ... with p = f_1 f_2^2 f_3^3 ..., up to a constant factor (Yun
-    1976)."""
+    """Return square-free polynomials f_1, f_2, ... such that p is a constant multiple of f_1 f_2^2 f_3^3 ...
+    (Yun 1976)."""
     common = _gcd(p, _derivative(p, ring), ring)
     rest = _quotient(p, common, ring)
     factors = []

@@ -38,8 +38,8 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return a copy of an expression in which the radius of every double is changed. The new radius of a
-    double x is ``units * 2^-53 * max(1, |x|)``."""
+    """Return a copy of an expression. In the copy, the ball of each double x has the radius
+    ``units * 2^-53 * max(1, |x|)``."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -16,7 +16,8 @@ _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){
 
 
 def parse_toml(text: str) -> Data:
-    """Parse TOML text. Raises ValueError for invalid TOML, and for a key with too many parts.
+    """Parse TOML text. Raises ValueError for invalid TOML, and for a dotted key with more than
+    :data:`MAX_PARTS` parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

@@ -31,15 +31,15 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield a line ``key = value`` for each value that is not written below a heading ``[key]``."""
+    """Yield the text ``key = value`` for each value without a heading."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading ``[key]``. Every table has a heading, except
-    the table ``embedded`` if it is short."""
+    """Return True if a value is written below a heading. Tables and lists of stages have a heading. A short
+    table ``embedded`` is written on one line, without a heading."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)

@@ -6,15 +6,15 @@ size. A step stores only the state Y and one element K of the Lie algebra (Willi
 has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
 2N scheme is a Runge-Kutta method.
 
-Let F_i be the vector field at stage i. Increment i leads from stage i to the next stage, or from the last
-stage to the update. In a 2N scheme, increment i is B_i K_i. Here K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
+Let F_i be the vector field at stage i. Increment i leads from stage i to stage i + 1. The last increment
+leads to the update. In a 2N scheme, increment i is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
 The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
 - A_i is a quotient of two coefficients in one increment. The numerator is the coefficient of F_{i-1}, and the
   denominator is the coefficient of F_i. The first increment with a non-zero denominator is used.
 
-Finally, all increments of the scheme are compared with the increments of the tableau.
+The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the increments B_i K_i, where K_i is the register K at stage i. The result has one row for
-        each stage i. The row contains the coefficients of F_1, ..., F_s in B_i K_i, where F_j is the vector
-        field at stage j.
+        """Return the increments B_i K_i, where K_i is the value of the register K that stage i computes. Let
+        F_j be the vector field at stage j. Row i of the result contains the coefficients of F_1, ..., F_s in
+        B_i K_i.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -52,8 +52,7 @@ class TwoRegisters:
         ((1/2, 0), (-1, 2))
         """
         rows: list[Row] = []
-        # ``register`` contains the coefficients of F_j in K_i for j < i. The coefficient 1 of F_i is not
-        # stored.
+        # K_i = F_i + sum_{j < i} x_j F_j. The list ``register`` contains the coefficients x_j.
         register: list[Element] = []
         for i, (a, b) in enumerate(zip(self.A, self.B, strict=True)):
             register = [*(a * x for x in register), a] if i else []
@@ -61,8 +60,8 @@ class TwoRegisters:
         return tuple(rows)
 
     def as_commutator_free(self, ring: Ring) -> CommutatorFree:
-        """Return the scheme as a commutator-free method, in which stage i + 1 is exp(h B_i K_i) applied to
-        stage i."""
+        """Return the scheme as a commutator-free method. In this method, the exponential of the increment
+        B_i K_i leads from stage i to stage i + 1."""
         steps = [Stage(i, (row,)) for i, row in enumerate(self.increments(ring))]
         return CommutatorFree((Stage(None, ()), *steps[:-1]), steps[-1])
 
@@ -71,7 +70,8 @@ class TwoRegisters:
 class Rewriting:
     """The result of rewriting a method as a low-storage (2N) scheme.
 
-    - ``holds``: whether the method is a 2N scheme, or None if balls (intervals) are too wide to decide
+    - ``holds``: True if the method is a 2N scheme, and False if it is not. None means that balls (intervals)
+      are too wide to decide.
     - ``scheme``: the 2N scheme, or None
     - ``reason``: the reason why ``scheme`` is None
     """
@@ -82,10 +82,10 @@ class Rewriting:
 
 
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
-    """Rewrite a method as a low-storage (2N) scheme. If the method is no 2N scheme, return the reason.
+    """Rewrite a method as a low-storage (2N) scheme. If this is impossible, return the reason.
 
-    A commutator-free method is a 2N scheme if it equals the scheme on every group. A tableau (A, b) is a 2N
-    scheme if it equals the scheme on vector spaces.
+    For a commutator-free method, the scheme gives the same step on every Lie group. For a Runge-Kutta method,
+    the scheme gives the same step on vector spaces.
 
     >>> from orderconds.tableau import Tableau, find
     >>> kutta3, heun = (Tableau.load(find(name)) for name in ("kutta3", "heun"))
@@ -100,7 +100,10 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
     for i, row in enumerate(rows):
         for j in range(i + 1, method.s):
             if ring.is_zero(row[j]) is False:
-                return Rewriting(False, reason=f"stage {i + 1} depends on k_{j + 1}: the method is implicit")
+                return Rewriting(
+                    False,
+                    reason=f"the increment of stage {i + 1} depends on k_{j + 1}: the method is implicit",
+                )
     B = tuple(row[i] for i, row in enumerate(rows))
     A: list[Element] = [ring.zero]
     for i in range(1, method.s):
@@ -113,11 +116,11 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """Return the last exponent of ``second`` if ``second`` applies all exponentials of the update and then
-    one more exponential. Otherwise, return None.
+    """If all other exponentials of ``second`` form the update of ``method``, return the last exponent of
+    ``second``. Otherwise, return None.
 
-    Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. A program
-    can then compute ``second`` with only one additional register, to which stage i adds D_i F_i.
+    Let sum_i D_i F_i be the last exponent, where F_i is the vector field at stage i. A program needs only one
+    additional register for ``second``: stage i adds D_i F_i to this register.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -130,8 +133,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. Return a :class:`Rewriting`
-    with a reason if there is no A_i, or if a rounded denominator may be zero."""
+    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. If A_i does not exist or is
+    undecided, return a :class:`Rewriting` with the reason."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -147,8 +150,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
                 f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # All possible denominators of A_i are zero. If a numerator is not zero, there is no A_i. Otherwise, A_i
-    # is arbitrary, and zero is chosen.
+    # In each increment, the denominator of the quotient for A_i is zero. If a numerator is not zero, A_i does
+    # not exist. If all numerators are zero, A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
@@ -179,9 +182,9 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Return one exponent for each stage. Its exponential leads from this stage to the next stage, or from
-    the last stage to the update. Return an error text if one exponential is not enough, or if the first stage
-    is not the start value."""
+    """Return the increments of a commutator-free method. The exponential of increment i leads from stage i
+    to stage i + 1. The exponential of the last increment leads to the update. Return an error text if the
+    first stage is not the start value, or if an increment would need several exponentials."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)
@@ -192,7 +195,7 @@ def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
     for i, (path, later) in enumerate(zip(paths, [*paths[1:], update], strict=True)):
         end = f"stage {i + 2}" if i + 1 < method.s else "the update"
         if len(later) not in (len(path), len(path) + 1) or not _same(path, later[: len(path)], ring):
-            return f"{end} does not result from stage {i + 1} by one exponential"
+            return f"no single exponential leads from stage {i + 1} to {end}"
         increments.append(later[-1] if len(later) > len(path) else (ring.zero,) * method.s)
     return increments
 

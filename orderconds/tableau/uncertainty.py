@@ -12,19 +12,19 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The ball (interval) of a double has at most the width ``WIDER * r``. Here r is the radius that
-:func:`~orderconds.tableau.doubles.radius` returns. The factor exceeds 2, because rounding widens the ball.
+"""The limit for the width of the ball (interval) of a double, as a multiple of its radius r
+(:func:`~orderconds.tableau.doubles.radius`). The exact width is 2r. The limit is larger because the endpoints
+of the ball are rounded outward.
 """
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
-    """Return the largest radius of the coefficients that are not accurate enough for floating-point numbers
-    of ``bits`` bits.
+    """Return the largest radius of the inaccurate coefficients, as a decimal with two digits. If all
+    coefficients are accurate, the result is empty.
 
-    A coefficient is not accurate enough if the radius of its ball (interval) exceeds the error of one
-    rounding to ``bits`` bits. The result is a decimal with two digits, or empty if all coefficients are
-    accurate enough. A double is always accurate enough, because generated code contains the double without
-    further rounding.
+    A coefficient is inaccurate if the radius of its ball (interval) exceeds the error of one rounding to
+    ``bits`` bits. A double with the default radius counts as accurate, because generated code contains the
+    double without further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

@@ -1,7 +1,7 @@
 """Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
-A decimal with ``~`` approximates a number without a known closed form. These numbers are the unknowns of the
-order conditions that the table ``[proof]`` defines. The exact coefficients solve the conditions and are near
+A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` names order
+conditions in which these numbers are the unknowns. The exact numbers solve the order conditions and are near
 the decimals.
 
 ::
@@ -40,12 +40,12 @@ class RootedRing(Ring, Protocol):
     """A ring in which real roots of polynomials can be computed, such as balls or jets."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root of x of degree ``index`` (2 for the square root)."""
+        """Return the real n-th root of x, where n is ``index``."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file. ``constant`` is the decimal without its sign, because the parser converts
-    a minus sign to a subtraction."""
+    """A rounded decimal of a file. ``constant`` is the decimal without its sign. The parser treats the sign
+    as an operator."""
 
     name: str
     constant: Constant
@@ -57,7 +57,7 @@ class Proof:
 
     The equations are the order conditions of one family up to order ``order``. ``conditions`` is the name of
     this family. The decimals in ``unknowns`` are the unknowns of the equations. The decimals in ``pinned``
-    count as exact numbers. ``printed`` contains decimals as printed in the source of the method.
+    count as exact numbers. ``printed`` maps names of numbers to their decimals in the source of the method.
     """
 
     conditions: str
@@ -74,8 +74,8 @@ class Proof:
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return the value of one number of the file for the given ``values`` of the unknowns. ``name`` is
-        the name of the number or its position in the file."""
+        """Return a named number or a coefficient of the file for the given ``values`` of the unknowns. For a
+        coefficient, ``name`` is the position in the file, such as ``A[2][1]``."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -86,8 +86,8 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file. The coefficients can be evaluated in various rings, and with various
-    values of the decimals."""
+    """The parsed coefficients of a file. They can be evaluated in a given ring, for given values of the
+    rounded decimals."""
 
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]
@@ -100,8 +100,8 @@ class SymbolicCoefficients(Struct, frozen=True):
         return self.build(values, ring)
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
-        """Return the value of one number if the decimals of the file have the values ``known``. ``name`` is
-        the name of the number or its position in the file."""
+        """Return a named number or a coefficient of the file. ``known`` contains the values of the rounded
+        decimals. For a coefficient, ``name`` is the position in the file, such as ``A[2][1]``."""
         expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
@@ -139,6 +139,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element. In such rings, the size counts as
-        # zero, so the size limit never applies.
+        # The evaluation limits the size of numbers in bits. In some rings (jets, residues), elements have no
+        # size. There, the size zero switches off the limit.
         return 0 if size is None else int(size(x))

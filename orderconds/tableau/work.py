@@ -2,13 +2,13 @@
 
 A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
 uses are not counted. The last stage of an explicit first-same-as-last method is not counted, because it is
-also the first stage of the next step. For an implicit method, the counts are for one iteration, which
-evaluates each stage once.
+also the first stage of the next step. An implicit method iterates. The counts are then for one iteration,
+which evaluates each stage once.
 
 Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
-the update depends, except at stages that equal the start value. All nested brackets of dexpinv are counted.
-For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley transform
-counts as an exponential.
+the update depends. At a stage that equals the start value, dexpinv is not needed. All nested brackets of
+dexpinv are counted. For a Magnus method, the brackets are the different commutators in the exponents. A
+Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Numbers of field evaluations, exponentials and brackets in one step. None denotes a number that is not
-    counted, such as the number of exponentials in a classical Runge-Kutta method."""
+    """Numbers of field evaluations, exponentials and brackets in one step. A number that is not counted is
+    None, such as the number of exponentials in a classical Runge-Kutta method."""
 
     evaluations: int
     exponentials: int | None = None
@@ -55,7 +55,7 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a commutator-free method. A Butcher tableau is interpreted as a
-    Crouch-Grossman method. For all other formats, return the result of :func:`evaluations`.
+    Crouch-Grossman method. For all other formats, only field evaluations are counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)
@@ -74,8 +74,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a Crouch-Grossman method. The method has one exponential for each non-zero
-    coefficient of the Butcher tableau. For a tableau of the format ``cf``, return the result of
-    :func:`evaluations`.
+    coefficient of the Butcher tableau. For a tableau of the format ``cf``, only field evaluations
+    are counted (:func:`evaluations`).
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -89,7 +89,7 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
     """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u is a sum of powers
     of ad_u. It is truncated after the power with the exponent ``cutoff``. For a method without a Butcher
-    tableau, return the result of :func:`evaluations`.
+    tableau, only field evaluations are counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -184,10 +184,9 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in the series dexpinv_u = sum_k (B_k / k!) ad_u^k, where B_k are
-    the Bernoulli numbers. The series is truncated after the exponent ``cutoff``. The result is the highest
-    exponent k <= ``cutoff`` for which B_k is not zero. If ``cutoff`` is None, the series is not truncated, no
-    brackets are counted, and the result is 0."""
+    """Return the number of nested brackets in the series dexpinv_u = sum_k (B_k / k!) ad_u^k, truncated after
+    k = ``cutoff``. This number is the highest k for which the Bernoulli number B_k is not zero. If ``cutoff``
+    is None, brackets are not counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -34,8 +34,8 @@ def dumps(tableau: Tableau) -> str:
 
     If the tableau was read from a file, the coefficients are copied as they are written in the file, together
     with the named numbers and the table ``[proof]``. Otherwise, the coefficients are written in full
-    (:func:`without_names`). A ball is written as a decimal with ``~`` that is correct to one unit in the last
-    place.
+    (:func:`without_names`). A ball is written as a decimal with ``~``. The error of the decimal is at most
+    one unit in the last place.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -70,8 +70,8 @@ def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the keys and values of a tableau file, with the coefficients written in full.
 
     The named numbers of the file are replaced by their values. Real roots that a polynomial (``minpoly``)
-    defines keep their names. If the coefficients contain square roots inside other roots, and if
-    ``name_radicals`` is true, the square roots receive the names r1, r2, ...
+    defines keep their names. If ``name_radicals`` is true, nested square roots receive the names
+    r1, r2, ...
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'

@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the names of all signs in the drawing of a tree. A sign is the shape of a vertex, such as
-    ``white``, or the direction of an edge, such as ``outward``."""
+    """Return the shape of each vertex and the direction of each edge in the drawing of a tree. Examples are
+    ``white`` for a vertex and ``outward`` for an edge."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)

@@ -106,15 +106,15 @@ def test_products_from_the_start_value_are_recognised() -> None:
         ('family = "rk"\nA = [["1/2"]]\nb = ["1"]\n', "the first stage is not the start value"),
         (
             'family = "rk"\nA = [[], ["0", "1/2"]]\nb = ["0", "1"]\n',
-            "stage 1 depends on k_2: the method is implicit",
+            "the increment of stage 1 depends on k_2: the method is implicit",
         ),
         (
             'family = "cf"\n[[stage]]\n[[stage]]\nexp = [["1/2"], ["1/4"]]\n[update]\nexp = [["0", "1"]]\n',
-            "stage 2 does not result from stage 1 by one exponential",
+            "no single exponential leads from stage 1 to stage 2",
         ),
         (
             'family = "cf"\n[[stage]]\n[[stage]]\nexp = [["1/2"]]\n[update]\nexp = [["0", "1"]]\n',
-            "the update does not result from stage 2 by one exponential",
+            "no single exponential leads from stage 2 to the update",
         ),
         (
             'family = "rk"\nA = [[], ["1/2"], ["0", "1/2"]]\nb = ["0", "0", "1"]\n',
