@@ -1,7 +1,7 @@
 """Checks of the formulas of a scene: its initial state, velocity, Hamiltonian field, flows and invariants.
 
-Derivatives are exact, by reverse differentiation of the formulas. Formulas and derivatives are compared at
-sample points of the manifold (:class:`codegen.scene.orbit.Orbit`).
+Formulas and their derivatives are compared at sample points of the manifold
+(:class:`codegen.scene.orbit.Orbit`). The derivatives are exact, apart from :func:`check_action`.
 """
 
 from __future__ import annotations
@@ -25,26 +25,25 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal. The scene states the first formula, and the second formula is
-computed from the field of the scene.
+"""Pairs of formulas that must be equal. The keys are the names of the pairs in messages.
 
-The key of a pair is its name in messages. If the second formula is None, the first formula is compared with
-the velocity y' = f.y, where f is the field of the scene.
+The first formula of a pair is an argument of the scene. The second formula is computed from the Hamiltonian.
+If the second formula is None, the first formula must be equal to the velocity y' = f.y, where f is the field.
 """
 
 
 STEP_DIGITS, SLOPE_DIGITS = 10, 12
-"""The step of central differences is eps = 10^-STEP_DIGITS. Their error is about eps^2, so about 20 digits
-are correct. SLOPE_DIGITS digits are compared.
+"""Central differences use the step eps = 10^-STEP_DIGITS. The error of a difference is about eps^2, so about
+20 digits are correct. The comparison uses SLOPE_DIGITS digits.
 """
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` for a problem whose formulas violate one of the following conditions.
+    """Raise :class:`SceneError` if a problem violates one of these conditions.
 
     - The initial state lies on the manifold.
     - The two formulas of each pair in ``stated`` are equal.
-    - If the user lists summands of the Hamiltonian H (``parts``), their sum is H.
+    - If ``parts`` is not empty, the sum of the parts is the Hamiltonian.
     - The invariants are constant along solutions.
     """
     orbit = orbit_of(problem)
@@ -56,11 +55,10 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_parts(orbit: Orbit, problem: Problem) -> None:
-    """Raise :class:`SceneError` if the sum of ``problem.parts``, the listed summands of a Hamiltonian H, is
-    not H.
+    """Raise :class:`SceneError` if the sum of ``problem.parts`` is not the Hamiltonian.
 
-    The sum and H are compared at points of the orbit, because their formulas may differ by a relation such as
-    |q|^2 = 1.
+    The values of the formulas are compared at points of the orbit. Different formulas may have equal values
+    there, because of a relation such as |q|^2 = 1.
     """
     if not problem.parts or problem.hamiltonian is None:
         return
@@ -94,8 +92,7 @@ def check_start(orbit: Orbit) -> None:
 
 
 def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
-    """Raise :class:`SceneError` if the states are elements of the group, but the initial state has no
-    inverse."""
+    """Raise :class:`SceneError` if the initial state should be a group element, but has no inverse."""
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return
@@ -113,9 +110,9 @@ def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
 def check_action(orbit: Orbit) -> None:
     """Raise :class:`SceneError` if the formulas of an action are wrong.
 
-    The identity of the group must not move a point. The velocity of the action must be the derivative of
-    exp(eps x).y at eps = 0. This derivative is computed as a central difference with 40 digits, at one point
-    y and for one element x of the Lie algebra.
+    The identity of the group must not move a point y. For an element x of the Lie algebra, the velocity of
+    the action must be the derivative of exp(eps x).y with respect to eps at eps = 0. This derivative is
+    approximated by a central difference with 40 digits. The test uses one point y and one element x.
     """
     d, group, action = orbit.domain, orbit.group, orbit.action
     y = tuple(orbit.points[-1][s] for s in orbit.symbols)
@@ -147,8 +144,8 @@ def check_equal(
 ) -> None:
     """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
 
-    If ``derived`` is None, the formulas of the scene are compared with the velocity y' = f.y. Messages refer
-    to the formulas of the scene by the name ``what``.
+    If ``derived`` is None, ``stated`` is compared with the velocity y' = f.y, where f is the field of the
+    scene. ``what`` is the name of the formulas in messages.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
@@ -166,11 +163,11 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part of H are wrong.
+    """Check the user's formulas for the flow of one part of the Hamiltonian.
 
-    The formulas are correct if two conditions hold. At the time 0 the formulas give the state. At all times
-    their time derivatives are equal to ``rates``, the field of the part. ``elapsed`` is the symbol of the
-    time in the formulas. The derivatives are exact and are compared with 40 digits.
+    At the time 0, the formulas must give the initial state of the flow. At the times 0, 1/3 and -2/3, the
+    time derivatives of the formulas must equal ``rates``, the field of the part. Otherwise
+    :class:`SceneError` is raised. ``elapsed`` is the symbol of the time in the formulas.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:
@@ -191,16 +188,15 @@ def check_flow(
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, which follows from the equations of the part",
-                            hint="if the part is a sum of terms that do not commute, the composition of "
-                            "their flows is not the flow of the sum; define each term as a separate part",
+                            hint="if the part is a sum of terms that do not commute, "
+                            "define each term as a separate part",
                         )
 
 
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
-    The time derivative of an invariant I is dI.(f.y) + dI/dt. The formula of this derivative is exact, and
-    its value must be zero at every sample point.
+    The derivative of the invariant along the solutions must be zero at every sample point.
     """
     for name, root in invariants.items():
         slopes = gradient(root, (*orbit.symbols, TIME))

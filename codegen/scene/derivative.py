@@ -9,7 +9,7 @@ import sympy
 from codegen.errors import SceneError
 
 MOST_DERIVATIVES = 8
-"""The largest order of a derivative in the nonlinear term N of the equation."""
+"""The largest order m of a derivative ``Dx(formula, m)``."""
 
 
 class Dx(sympy.Function):  # type: ignore[misc]
@@ -24,9 +24,9 @@ class Dx(sympy.Function):  # type: ignore[misc]
 
     @classmethod
     def eval(cls, formula: sympy.Expr, order: object = 1) -> Any:
-        """Return 0 if ``formula`` is a constant, or Dx(u, m + order) if ``formula`` is a derivative Dx(u, m).
+        """Return the simplified derivative, or None if SymPy must keep ``Dx(formula, order)`` as it is.
 
-        For all other formulas return None. SymPy then keeps the expression ``Dx(formula, order)``.
+        The derivative of a constant is 0. The derivative of Dx(u, m) is Dx(u, m + order).
         """
         number = next((m for m in range(1, MOST_DERIVATIVES + 1) if m == order), 0)
         if not number:

@@ -1,14 +1,14 @@
 """The operations from which discrete gradient methods are built: the energy, its trivialised differential,
 the discrete gradient (secant), and the bivector.
 
-The source is section 2.6 of H. Marthinsen's thesis. A Lie group with the algebra g acts on the points x. The
-trivialised differential gamma(x) of H is an element of g*. For an element e of g, the pairing <gamma(x), e>
-is the derivative of H(exp(eps e).x) at eps = 0. A field that preserves H has the form x' = f(x).x with f =
-omega(gamma, .), where the bivector omega is a skew bilinear form on g*.
+The source is section 2.6 of H. Marthinsen's thesis. A Lie group with the algebra g acts on the states x. The
+trivialised differential gamma(x) of the energy H is an element of the dual g*. For an element e of g, the
+pairing <gamma(x), e> is the derivative of H(exp(eps e).x) with respect to eps at eps = 0.
 
-On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge f)/|gamma|^2, where the
-Euclidean inner product of coordinates identifies gamma with an element of g. This formula requires that f
-vanishes wherever gamma vanishes.
+The bivector omega is a skew bilinear form on g*. A field that preserves H has the form x' = f(x).x with
+f = omega(gamma, .). On T*G, omega is the canonical bivector. For all other problems, omega is
+(gamma wedge f)/|gamma|^2. In this formula, gamma is read as an element of g with the same coordinates. The
+field f must be zero wherever gamma is zero.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from codegen.scene.sites import Sites
 
 ENERGY = "energy"
-"""For a field scene, discrete gradient methods preserve the invariant with this name."""
+"""The name of the invariant that is the energy of a problem without a Hamiltonian."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 """The names of the operations that :func:`apply` evaluates. A program for one step may contain these
@@ -76,9 +76,9 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    The energy of a Hamiltonian problem is the Hamiltonian. For any other problem, the energy is the invariant
-    with the name ``energy``. If the problem describes one site of a lattice, the energy is the sum of all
-    terms of the total energy that depend on the state of this site.
+    For one site of a lattice, the energy is the energy of the site plus the energies of all its bonds. For
+    any other Hamiltonian problem, the energy is the Hamiltonian. For a problem without a Hamiltonian, the
+    energy is the invariant with the name ``energy``.
     """
     if problem.sites is not None:
         return problem.sites.energy
@@ -112,8 +112,10 @@ def _slopes(root: Expr, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
 
 
 def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
-    """Return the covector gamma(y). For each e in the Lie algebra, <gamma(y), e> is the derivative of
-    H(exp(eps e).y) at eps = 0.
+    """Return the covector gamma(y), the trivialised differential of the energy H.
+
+    For each element e of the Lie algebra, <gamma(y), e> is the derivative of H(exp(eps e).y) with respect to
+    eps at eps = 0.
     """
     slopes: Vector[S] = tuple(evaluate(_slopes(_root(problem), problem.symbols), d, problem.values(d, y)))
     basis: tuple[Vector[S], ...] = units(d, problem.group.dim)
@@ -121,9 +123,9 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return the element omega_y(alpha, .) of the Lie algebra, for a covector alpha.
+    """Apply the bivector omega at the state y to the covector alpha. Return an element of the Lie algebra.
 
-    If alpha is the result of :func:`differential` at y, the result is the value f(y) of the field.
+    For alpha = ``differential(problem, d, y)``, this element is the field f(y).
     """
     if canonical(problem):
         return _canonical(problem.group, d, y, alpha)
@@ -143,7 +145,7 @@ def canonical(problem: Conservative) -> bool:
 
 
 def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return the canonical bivector on T*G or on T*G_1 x ... x T*G_n, applied to a covector."""
+    """Apply the canonical bivector at y to the covector alpha, on T*G or T*G_1 x ... x T*G_n."""
     product = group.offers(DirectProduct)
     if product is None:
         return group.require(CotangentBundle).canonical(d, y, alpha)
@@ -152,10 +154,11 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector p with <p, x> = ``after - before`` that is nearest to g in the Euclidean norm.
+    """Return the discrete gradient for the displacement x (eq. 2.31 of Marthinsen's thesis).
 
-    This is eq. 2.31 of Marthinsen's thesis. The result is the sum of g and a multiple of x. The multiple is
-    zero if x is zero.
+    ``before`` and ``after`` are the energies before and after the displacement. Among all covectors p with
+    <p, x> = ``after - before``, the result is nearest to g in the Euclidean norm. If x is zero, the result
+    is g.
     """
     factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

@@ -1,13 +1,13 @@
-"""The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
-state.
+"""The coordinates in which Taylor polynomials of a scene are computed.
 
 Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose
-equations contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the
-momentum in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N,
-with the velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
+equations contain the fewest products. The state of a Hamiltonian scene consists of a group element q and a
+momentum mu. The momentum in the body frame, P = Ad*_q mu, may need fewer products than mu. The equations for
+q and P are q' = q.W and P' = N. Here W is the velocity and N is the force in the body frame
+(:mod:`codegen.scene.body_frame`).
 
-Some coordinates of q may be omitted under two conditions. The remaining coordinates must determine the
-omitted coordinates. The equations of the remaining coordinates must not contain the omitted coordinates.
+Some coordinates of q may be omitted. The remaining coordinates must determine the omitted coordinates, and
+the equations of the remaining coordinates must not contain the omitted coordinates.
 """
 
 from __future__ import annotations
@@ -41,9 +41,10 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
-    ``inner`` is the problem on R^m in these m coordinates. ``outer`` is the scene, written as a field y' =
-    f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group. Otherwise
-    ``body`` is None. ``missing`` contains the indices of the omitted coordinates.
+    - ``inner``: the problem on R^m in these m coordinates.
+    - ``outer``: the scene as a field y' = f(y).y.
+    - ``body``: the group if the coordinates contain the momentum in the body frame, otherwise None.
+    - ``missing``: the indices of the omitted coordinates.
     """
 
     inner: Problem
@@ -52,10 +53,9 @@ class Evolution:
     missing: tuple[int, ...] = ()
 
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
-        """Return the coordinates of the state y in which the Taylor polynomials are computed.
+        """Convert the state y to the coordinates of this object.
 
-        If y contains the momentum in the body frame, pass the group as ``frame``. If y contains the momentum
-        in space, pass None.
+        If y contains the momentum in the body frame, ``frame`` must be the group, otherwise None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -67,10 +67,10 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Convert the coordinates ``moved`` to a state, and project it onto the manifold that contains y.
+        """Convert the coordinates ``moved`` to a state, and project this state onto the manifold.
 
-        The momenta in y and in the result are in the same frame. If this is the body frame, pass the group as
-        ``frame``. If it is the space frame, pass None.
+        ``y`` is a state on the manifold, at the beginning of the step. If y and the result contain the
+        momentum in the body frame, ``frame`` must be the group, otherwise None.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -84,24 +84,22 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # Only the change of the momentum is converted back: rounding errors make q slightly non-orthogonal,
-        # so converting the whole momentum would change its length in each step.
+        # Rounding errors make q slightly non-orthogonal. A conversion of the whole momentum would therefore
+        # change its length in each step. Only the change of the momentum in the step is converted.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
-        """Return the coordinates after a step from the state y at the time t.
+        """Return the coordinates after a step of size h from the state y at the time t.
 
-        They are the values of Taylor polynomials at the time t + h. The polynomials have the degree
-        ``degree``.
+        The coordinates are the values of Taylor polynomials of degree ``degree``.
         """
-        # The coefficient of degree k includes the factor h^k, so the value at t + h is the sum of the
-        # coefficients.
+        # The coefficient of degree k includes the factor h^k. The value of the polynomial is therefore the
+        # sum of the coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The coefficient of degree 0 is the old state. The other coefficients are added first, in the
-            # order in which they become known. Their sum is small, and so are its rounding errors. The old
-            # state is added last.
+            # The coefficient of degree 0 is the old value of the coordinate. It is added last.
+            # The sum of the other coefficients is usually small, and so are the rounding errors of this sum.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -111,23 +109,21 @@ class Evolution:
     def coefficients(
         self, domain: Domain, degree: int, start: Sequence[S], t: S | None, scale: S
     ) -> list[list[Coefficient]]:
-        """Return for each coordinate the Taylor coefficients of the degrees 0 to ``degree``.
+        """Return the Taylor coefficients of the degrees 0 to ``degree``, as one list for each coordinate.
 
         The coefficient of degree k is the k-th time derivative of the coordinate at the time t, multiplied by
-        ``scale``^k / k!. A coefficient that is zero for all states is None.
+        ``scale``^k / k!. If a coefficient is zero for all states, its list contains None in its place.
         """
         return self.recurrence(domain, start, t, scale).extend(degree)
 
     def recurrence(self, domain: Domain, start: Sequence[S], t: S | None, scale: S) -> Recurrence:
-        """Return the recurrence for the coefficients that :meth:`coefficients` returns."""
+        """Return the recurrence for the Taylor coefficients (:meth:`coefficients`)."""
         inner = self.inner
         values = inner.values(domain, start, t)
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of two power series in the recurrence. In the loop over the
-        degrees, each product becomes one convolution sum.
-        """
+        """Return the number of products of two power series in the recurrence."""
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
@@ -138,7 +134,7 @@ class Evolution:
         return tuple(y[: self.body.size]), tuple(y[self.body.size :])
 
     def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
-        """Return all coordinates, including the coordinates that were omitted."""
+        """Return all coordinates, including the omitted coordinates."""
         if not self.missing:
             return moved
         group, own = _of_element(self.outer.group), iter(moved)
@@ -161,10 +157,9 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates in which the Taylor polynomials of a scene need the fewest products of power
-    series, together with the equations in these coordinates.
+    """Return the coordinates and equations with the fewest products of two power series.
 
-    For a lattice, the result describes the coordinates of one site.
+    For a lattice, the result contains the coordinates of one site.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
@@ -174,8 +169,8 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # If several candidates need the same number of products, min returns the first of them. The coordinates
-    # of the scene are first in the list, so they are preferred.
+    # The list begins with the coordinates of the scene. If no other candidate needs fewer products, min
+    # returns the coordinates of the scene.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
@@ -188,7 +183,7 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # The zeros are only placeholders, because each step begins with the current values of the coordinates.
+    # These initial values are not used: each step begins with the current values of the coordinates.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,
@@ -204,7 +199,7 @@ def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) 
 def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
     """Return formulas for the time derivatives of q and P, where P is the momentum in the body frame.
 
-    The formulas use the symbols of mu for the components of P.
+    The components of P have the symbols of the momentum mu of the scene.
     """
     body = scene.body
     assert body is not None

@@ -1,13 +1,12 @@
-"""The extended phase space: a Hamiltonian that depends on time becomes autonomous, because the time and the
-momentum of the time become coordinates.
+"""The extended phase space, on which a Hamiltonian H that depends on time becomes autonomous.
 
-The time becomes the coordinate tau, and u is the momentum conjugate to tau. The Hamiltonian K(q, tau, mu, u)
-= H(q, mu, tau) + u on T*(G x R) does not depend on time. Its equations contain tau' = 1 and u' = -dH/dt. The
-flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section 4.3.2).
+The time becomes the coordinate tau, and u is the momentum conjugate to tau. The new Hamiltonian on T*(G x R)
+is K(q, tau, mu, u) = H(q, mu, tau) + u. Its equations contain tau' = 1 and u' = -dH/dt. The flow preserves
+K. The initial value of u is -H, so that K is zero (H. Marthinsen's thesis, section 4.3.2).
 
-A step of a variational method adds to u a weighted sum of the values of -h dH/dt at the stages (Example 4.4.5
-of the thesis). Variational methods preserve the extended symplectic form. Discrete gradient methods preserve
-K.
+Variational methods preserve the extended symplectic form. Discrete gradient methods preserve K. A step of
+size h of a variational method adds to u a weighted sum of the values of -h dH/dt at the stages (Example 4.4.5
+of the thesis).
 """
 
 from __future__ import annotations
@@ -29,13 +28,15 @@ from codegen.scene.problem import TIME, Problem, StateField
 def extended(problem: Problem) -> Problem:
     """Return the problem on the extended phase space.
 
-    SceneError is raised for a field scene that is not linear, and for a Hamiltonian that does not depend on
-    time.
+    The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
+    y' = A(t).y. For all other problems SceneError is raised.
 
     A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
-    coordinates are called tau and u. If a coordinate or a parameter already has one of these names,
-    underscores are appended. If the scene lists summands of the Hamiltonian (``parts``), u is added to the
-    first summand that does not depend on time. If all summands depend on time, u becomes a new summand.
+    coordinates are called tau and u. If a coordinate or a parameter of the problem has one of these names,
+    underscores are appended to the new name.
+
+    If the Hamiltonian is a sum of ``parts``, u is added to the first part that does not depend on time. If
+    all parts depend on time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))
@@ -83,7 +84,7 @@ def extended(problem: Problem) -> Problem:
 
 
 def _timed(problem: Problem) -> Expr:
-    """Return the Hamiltonian; raise SceneError if the problem has no Hamiltonian that depends on time."""
+    """Return the time-dependent Hamiltonian of a problem. Raise SceneError if it does not exist."""
     if problem.hamiltonian is None or not problem.paired:
         raise SceneError(
             f"{problem.name} has no momentum u conjugate to the time",

@@ -39,14 +39,14 @@ def FieldScene(
     - ``f``: a column of ``group.dim`` formulas in the coordinates, in the symbol ``t`` and in parameters.
     - ``y0``: the exact initial point.
     - ``span``: the rational time interval.
-    - ``velocity``: formulas for y', which must equal f.y.
+    - ``velocity``: formulas for y', to check ``f`` and ``action``.
     - ``invariants``: a map from names to scalar formulas.
     - ``coordinates``: the coordinate map of Runge-Kutta-Munthe-Kaas methods: "exp", "cayley", "second_kind",
       or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
 
     :class:`SceneError` is raised for a wrong shape or symbol, for an initial point that is not on the
-    manifold, and for a coordinate map that the group does not have. The error is also raised if ``velocity``
-    differs from f.y, or if an invariant is not constant.
+    manifold, and for a coordinate map that is not defined for the group. The error is also raised if
+    ``velocity`` differs from f(y).y, or if an invariant is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

@@ -45,11 +45,11 @@ class Run:
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
 
     - ``label``: the name of the run in the figure, by default the method.
-    - ``scene``: the name of another scene for the run. ``+u`` denotes the scene of the figure, extended by
-      the momentum conjugate to the time.
-    - ``tolerance``: if it is positive, the method chooses its steps with this relative and absolute
-      tolerance. The interval between output times is then ``h``.
-    - ``sweep``: there is one run for each value of the sweep, and the figure shows the final states.
+    - ``scene``: the name of the scene, by default the scene of the figure. ``+u`` denotes the scene of the
+      figure, extended by the momentum conjugate to the time.
+    - ``tolerance``: the relative and absolute tolerance. If it is positive, the method chooses its own step
+      sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
+    - ``sweep``: values of a parameter. The run is repeated for each value, and the final states are shown.
     """
 
     method: str
@@ -71,10 +71,10 @@ class Run:
 class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
-    The command ``figure`` selects a figure by its name. ``source`` is the name of the printed figure, such as
-    "Fig. 2.6 of the thesis". Some kinds of figures compare all runs with the run ``reference``. All other
-    kinds draw this run as a thin line. ``shows_lattices`` is True for the kinds of figures that show chains
-    and lattices.
+    The command ``figure`` selects a figure by its name. ``source`` is the published figure that is
+    reproduced, such as "Fig. 2.6 of the thesis". ``reference`` is a run with which the other runs are
+    compared, or which is drawn as a thin line. Some kinds of figures do not use ``reference``.
+    ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -89,11 +89,12 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneCurves(Figure):
-    """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
+    """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains the labels of the axes.
 
-    If ``panels`` is True, each run has a panel of its own. ``bounds`` contains the limits of the axes: (left,
-    right, low, high). By default the limits include all points of the panel. If ``marked`` is True, markers
-    are drawn at every state. If ``dots`` is True, the states are drawn as dots without lines between them.
+    If ``panels`` is True, each run has a panel of its own. ``bounds`` contains the limits of the axes as
+    (left, right, bottom, top). By default the limits include all points of the panel. If ``marked`` is True,
+    markers are drawn at every state. If ``dots`` is True, the states are drawn as dots without lines between
+    them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -108,7 +109,7 @@ class PlaneCurves(Figure):
 class SphereCurves(Figure):
     """Curves on a sphere about the origin, in orthogonal projection. ``point`` has three formulas.
 
-    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. If
+    ``direction`` is the direction from the origin to the viewer, as (azimuth, elevation) in degrees. If
     ``panels`` is True, each run has a panel of its own. If ``dots`` is True, the states are drawn as dots
     without lines between them.
     """
@@ -124,7 +125,7 @@ class SphereCurves(Figure):
 class SpaceCurves(Figure):
     """Curves in space, in orthogonal projection. ``point`` has three formulas.
 
-    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees.
+    ``direction`` is the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
     """
 
     point: tuple[Quantity, Quantity, Quantity]
@@ -144,9 +145,10 @@ class Motion(Figure):
     - ``trace``: a point whose path is shown.
     - ``fixed``: a map from labels to points that do not move.
     - ``stills``: the number of equally spaced times at which the figure also shows the bars.
-    - ``seconds``: the duration of the animation, which is repeated. The animation stops while the pointer is
-      on the figure.
-    - ``direction``: the direction from the origin to the viewer, azimuth and elevation in degrees.
+    - ``seconds``: the duration of one cycle of the animation.
+    - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
+
+    The animation is repeated. It stops while the pointer is on the figure.
 
     The figure shows only one run.
     """
@@ -168,7 +170,7 @@ class TorusCurves(Figure):
     - ``axes``: the labels of the two angles.
     - ``variables``: two symbols that denote the angles in the formulas of ``state``.
     - ``state``: a formula for each coordinate of the state, as a function of the two angles.
-    - ``directions``: formulas for the rates of the angles, drawn as arrows.
+    - ``directions``: formulas for the time derivatives of the angles, drawn as arrows.
     - ``levels``: a formula that is drawn as level lines.
 
     The formulas in ``directions`` and ``levels`` are evaluated on a grid of angles, at the states that
@@ -187,7 +189,7 @@ class TorusCurves(Figure):
 class TimeSeries(Figure):
     """Quantities, plotted against time. ``quantities`` maps labels to formulas.
 
-    The reference curve shows the first quantity of the run ``reference``. If ``difference`` is False, the
+    The reference curve is the first quantity along the run ``reference``. If ``difference`` is False, the
     reference curve is drawn as a separate line with the label ``reference_label``. If ``difference`` is True,
     the reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
     If there are several runs, each run has a panel of its own.
@@ -204,10 +206,10 @@ class TimeSeries(Figure):
 class LatticeMeans(Figure):
     """Means over all sites of a lattice, plotted against time. ``quantities`` maps labels to formulas.
 
-    The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
-    coordinates of neighbours. ``shape`` contains the number of sites in each dimension. ``start`` is a
-    function with ``shape`` = (n1, ..., nd) as its argument. It returns the initial states as an array of
-    shape (n1, ..., nd, m), where m is the number of coordinates of a site.
+    The formulas contain the coordinates of a site. On a periodic lattice, the formulas may also contain the
+    coordinates of neighbours. ``shape`` = (n1, ..., nd) contains the number of sites in each dimension.
+    ``start(shape)`` returns the initial states as an array of shape (n1, ..., nd, m), where m is the number
+    of coordinates of a site.
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -222,9 +224,9 @@ class Deviation(Figure):
     """The largest deviation of a quantity, plotted against time. The vertical axis is logarithmic.
 
     The deviation is the difference between the quantity and its value along the reference run. Without a
-    reference run, the deviation is the difference from the initial value. The figure shows the maximum over
-    each group of ``window`` consecutive steps. If ``window`` is 0, the figure shows the maximum over all
-    steps so far.
+    reference run, the deviation is the difference from the initial value. If ``window`` is 0, the figure
+    shows at each time t the maximum up to t. Otherwise the figure shows the maximum over each group of
+    ``window`` consecutive states.
     """
 
     quantity: Quantity
@@ -234,10 +236,11 @@ class Deviation(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Scan(Figure):
-    """The distance of the final state from the end of the reference run, plotted against a parameter.
+    """The distance between the final states of a run and of the reference run, plotted against a parameter.
 
-    The :class:`Sweep` of each run contains the values of the parameter. The parameter value with the least
-    distance is marked. A minimisation finds this value, so it may lie between two values of the sweep.
+    Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
+    with the least distance. This value is computed by minimisation and may lie between two values of the
+    sweep.
     """
 
     axis: str = ""
@@ -247,7 +250,7 @@ class Scan(Figure):
 class Orders(Figure):
     """The error at the end of the time span, plotted against the step size, with one curve for each run.
 
-    Each run is repeated ``halvings`` times; each repetition halves the step size. The error is the distance
+    The step size of each run is halved ``halvings`` times. The error is the distance
     from the reference solution of the scene (``codegen.lab.distance``). For each number p in ``orders``, the
     figure also shows a dashed line of slope p.
     """

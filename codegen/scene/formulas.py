@@ -52,7 +52,7 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Return the default value of each parameter in the formulas read so far. The keys are the names."""
+        """Return the default values of all parameters in the converted formulas, by name."""
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:
@@ -138,9 +138,7 @@ class Reader:
         constant: bool = False,
         more: Sequence[str] = (),
     ) -> tuple[Expr, ...]:
-        """Return n formulas as expressions. The formulas may form a list or a matrix, which is read row by
-        row.
-        """
+        """Return n formulas as expressions. A matrix of formulas is read row by row."""
         try:
             entries = list(_flat(formulas))
         except TypeError:
@@ -168,6 +166,6 @@ def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
-    """Return the symbols of a sympy formula; the result is empty for a Python number."""
+    """Return the symbols of a formula. A Python number has no symbols."""
     symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
     return symbols
