@@ -51,14 +51,14 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = dH/dmu and n = -(dH/dq).q^-1 are
-    computed by differentiation. If H does not depend on t and there is no wrench, the energy is an invariant.
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu. The program computes xi = dH/dmu and
+    n = -(dH/dq).q^-1. If H does not depend on t and there is no wrench, the energy is an invariant.
 
     - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
-    - ``xi``, ``n``: formulas, which must equal the computed formulas.
-    - ``parts``: named summands of H, which must add up to H.
-    - ``flows``: formulas for (q, mu) after the time ``Symbol("tau")``, for parts without a known exact flow.
-    - ``wrench``: a force without potential, in the space frame. A scene with a wrench has no ``parts``.
+    - ``xi``, ``n``: formulas for xi and n. They must equal the computed formulas.
+    - ``parts``: summands of H with names. The sum of all parts must be H.
+    - ``flows``: further exact flows of parts: formulas for (q, mu) after the time ``Symbol("tau")``.
+    - ``wrench``: a force that has no potential, in the space frame. A scene with a wrench has no ``parts``.
     - ``coordinates``: only "exp" is permitted.
 
     :class:`SceneError` is raised for a wrong formula, and for the errors that :func:`FieldScene` lists.
@@ -134,10 +134,11 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 
 @dataclass(frozen=True)
 class _CanonicalSystem:
-    """The formulas of H and of its field: q' = xi.q and mu' = n - ad*_xi mu.
+    """The formulas in the equations q' = xi.q and mu' = n + wrench - ad*_xi mu of a Hamiltonian scene.
 
-    ``summands`` are the parts of H. ``roots`` are the components of xi and n. ``loads`` are the components of
-    the wrench, or () if there is no wrench. ``open_roots`` are the components of xi and n + wrench.
+    ``summands`` contains the parts of H. ``roots`` contains the components of xi and n. ``loads`` contains
+    the components of the wrench, and is empty without a wrench. ``open_roots`` contains the components of xi
+    and n + wrench.
     """
 
     reader: Reader
@@ -183,15 +184,20 @@ class _CanonicalSystem:
         )
 
     def invariants(self, energy: Expr, declared: Mapping[str, sympy.Expr]) -> dict[str, Expr]:
-        """Return the declared invariants. If H does not depend on time and there is no wrench, the energy is
-        added as the first invariant."""
+        """Return all invariants of the scene.
+
+        If H does not depend on time and there is no wrench, the energy is the first invariant. The
+        ``declared`` invariants follow.
+        """
         timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([energy]))
         known = {"energy": energy} if timeless and not self.loads else {}
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return two formulas for xi or n: the formula that the scene gives in ``column``, and the formula
-        computed by differentiation."""
+        """Return the components of xi or n twice: as given in ``column``, and as computed from H.
+
+        ``key`` is "xi" or "n".
+        """
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)

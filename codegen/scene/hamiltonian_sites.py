@@ -1,11 +1,14 @@
 """Hamiltonian chains and lattices: each site has a Hamiltonian, and bonds between neighbours have energies.
 
-The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each
-bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i.
-Here xi_i is the derivative of h with respect to mu_i, and n_i = -(D_1 E).q_i^-1, where D_1 E is the
-derivative of E with respect to q_i (:mod:`codegen.scene.canonical_equations`). For each offset, a site is the
-first site of one bond and the second site of another bond. Therefore n_i contains the derivatives of V(q_i,
-q_{i+d}) and of V(q_{i-d}, q_i) with respect to q_i.
+The site i has the Hamiltonian h(q_i, mu_i). A bond with the offset d has the energy V(q_i, q_{i+d}). The
+total energy E is the sum of h over all sites and of V over all bonds.
+
+The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
+respect to mu_i, and n_i = -D.q_i^-1. The symbol D denotes the derivative of E with respect to q_i
+(:mod:`codegen.scene.canonical_equations`).
+
+For each offset d, the site i belongs to two bonds. Their energies V(q_i, q_{i+d}) and V(q_{i-d}, q_i) both
+contribute to n_i.
 """
 
 from __future__ import annotations
@@ -55,16 +58,15 @@ def HamiltonianSiteScene(
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
     - ``q``, ``mu``: the coordinates of a site (``group.point``, ``group.dual``).
-    - ``H``: the Hamiltonian of a site without its bonds, a formula in q, mu, t and parameters.
-    - ``bonds``: the bonds of a site (:class:`Bond`); the program derives the forces on both sites.
+    - ``H``: the Hamiltonian of one site, without bonds. It is a formula in q, mu, t and parameters.
+    - ``bonds``: the energies of bonds (:class:`Bond`). Emitted code contains the forces on both sites.
     - ``q0``, ``mu0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: at an open boundary, the element q of the missing neighbour. It is a column of
-      ``group.size`` formulas in q, t and parameters, or a mapping from offsets to such columns. Constants
-      describe a clamped end. Formulas in t describe a driven end. For a free end, give an element for which
-      the bond exerts no force, often ``q`` itself.
-    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts with the exact flow
-      of all bonds.
+    - ``outside``: the element q of a missing neighbour at an open boundary. Give a column of ``group.size``
+      formulas in q, t and parameters, or a mapping from offsets to columns. Constants describe a clamped
+      end. Formulas in t describe a driven end. For a free end, give an element for which the bond exerts no
+      force. This element is often ``q``.
+    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts and of all bonds.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene` list. It is also raised for bonds that contain the momentum.
@@ -99,7 +101,7 @@ def HamiltonianSiteScene(
 
 
 def _check(problem: Problem, hamiltonian: Expr) -> None:
-    """Raise SceneError if the formulas of the scene are inconsistent, or if ``parts`` do not add up to H."""
+    """Raise SceneError if a formula of the scene is wrong, or if the sum of ``problem.parts`` is not H."""
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
 
@@ -137,9 +139,9 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with ``mu`` appended to each column. The columns then contain values for all
-    coordinates of a state. The appended values have no effect, because no formula reads the momentum of a
-    neighbour.
+    """Return ``outside`` with ``mu`` appended to each column, because a state consists of q and mu.
+
+    The appended values have no effect. The force of a bond does not depend on the momentum of a neighbour.
     """
     if outside is None:
         return None

@@ -27,12 +27,11 @@ if TYPE_CHECKING:
     import sympy
 
     Start = Sequence[sympy.Expr] | Callable[..., sympy.Expr]
-    """An initial state: the numbers row by row, or a function of the row index. If there are several columns,
-    the column index is the second argument of the function."""
+    """An initial state: all entries row by row, or a function of the row index. For several columns, the
+    column index is the second argument of the function."""
 
 MOST_ROWS = 8
-"""The largest number n of rows for which the problem also contains a formula for each of the n^2 entries of
-A(t). The entries are the coordinates of A(t) in the Lie algebra of GL(n).
+"""If A(t) has at most this number of rows, the problem contains a formula for each entry of A(t).
 
 Commands such as ``stability``, ``localerror`` and ``bench`` need these formulas.
 """
@@ -51,16 +50,16 @@ def LargeLinearScene(
 
     - ``A``: the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
       of such matrices. Entries are formulas in the indices, in ``t`` and in parameters.
-    - ``y0``: the initial state row by row, or a function of the indices, counted from 0. By default its
-      columns are the first unit vectors.
+    - ``y0``: the entries of the initial state row by row, or a function of the indices. Indices are counted
+      from 0. By default, the columns of the initial state are the first k unit vectors.
     - ``span``: the rational time interval.
 
-    The families magnus, cf_magnus, fer, rkmk, cf and cg can be emitted for this scene. Their steps never
-    form products or exponentials of matrices (:mod:`codegen.ir.linear_array_step`). If all entries are given
-    by formulas, the length of the emitted code does not depend on n.
+    Methods of the families magnus, cf_magnus, fer, rkmk, cf and cg can be emitted for this scene. These
+    methods form no products or exponentials of matrices (:mod:`codegen.ir.linear_array_step`). If formulas
+    give all entries, the length of the emitted code does not depend on n.
 
-    :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains
-    :func:`codegen.scene.unknown`, and for a state of a wrong size.
+    :class:`SceneError` is raised if ``A`` is not square or contains :func:`codegen.scene.unknown`, and if
+    ``y0`` has a wrong size.
     """
     if not isinstance(A, MatrixFormula):
         raise SceneError(
@@ -116,6 +115,6 @@ def _start(reader: Reader, n: int, columns: int, y0: Start | None) -> tuple[Expr
 
 
 def _roots(reader: Reader, field: LinearField, parameters: tuple[str, ...]) -> tuple[Expr, ...]:
-    """Return the entries of A(t), which are its coordinates in the Lie algebra of GL(n)."""
+    """Return the entries of A(t) row by row. The entries are the coordinates of A(t) in gl(n)."""
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}
     return field.generator(ExprDomain(reader.space), (), scalars)

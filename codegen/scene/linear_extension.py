@@ -1,10 +1,11 @@
 """The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
 
-The first half of the coordinates is q, and the second half is p. The matrix A(t) is in sp(2n) if and only if
-y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0). The momentum
-u conjugate to the time satisfies u' = -dH/dt, and its initial value is -H. For a step y -> M(t) y with a
-symplectic matrix M(t), the momentum after the step is U = u + y^T M^T J M' y/2 with M' = dM/dt (H.
-Marthinsen's thesis, equation (4.15)). The step is then a canonical transformation of (q, p, t, u).
+The vectors q and p have n components each. If A(t) is in sp(2n), y' = A(t).y is Hamilton's equation for
+H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0).
+
+The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. A step maps y to
+M(t) y with a symplectic matrix M(t), and maps u to U = u + y^T M^T J M' y/2 with M' = dM/dt (H. Marthinsen's
+thesis, equation (4.15)). This step is a canonical transformation of (q, p, t, u).
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def extended_linear(problem: Problem, u: str) -> Problem:
-    """Return the problem with an additional last coordinate ``u``, the momentum conjugate to the time.
+    """Return a linear problem with one more coordinate, the momentum ``u`` conjugate to the time.
 
     The invariant ``energy`` is H + u, where H is the Hamiltonian. :class:`SceneError` is raised if
-    (q, p)' = A(t).(q, p) is not a Hamiltonian equation, or if H does not depend on the time.
+    ``problem`` is not Hamiltonian, or if H does not depend on the time.
     """
     hamiltonian = _hamiltonian(problem)
     space = hamiltonian.space
@@ -55,16 +56,18 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 def without_momentum_rate(problem: Problem) -> Problem:
     """Return the extended linear problem with u' = 0 in place of u' = -dH/dt.
 
-    The formulas for the field of the returned problem contain the time, but not the state. The methods for
-    linear problems compute u separately.
+    Methods for linear problems compute u separately. The formula -dH/dt contains the state. The other
+    formulas for the field do not contain the state.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))
 
 
 def _hamiltonian(problem: Problem) -> Expr:
-    """Return H = (q'.p - p'.q)/2. Raise SceneError if H does not depend on the time, or if Hamilton's
-    equation for H is not the equation of the problem."""
+    """Return the Hamiltonian of a linear problem.
+
+    SceneError is raised for a problem that is not Hamiltonian, and for a constant matrix A.
+    """
     refusal = f"the linear problem {problem.name} has no momentum u conjugate to the time"
     if not problem.roots:
         problem.require_formulas()
@@ -72,7 +75,7 @@ def _hamiltonian(problem: Problem) -> Expr:
     symbols, space = block.symbols, problem.roots[0].space
     if len(symbols) % 2:
         raise SceneError(
-            f"{refusal}, because the number of its coordinates is odd: {len(symbols)}",
+            f"{refusal}, because the number of coordinates is odd: {len(symbols)}",
             expected="an even number of coordinates: first q, then p",
         )
     point = tuple(space.sym(s) for s in symbols)

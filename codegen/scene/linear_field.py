@@ -1,4 +1,4 @@
-"""Fields A(t) y on vectors or matrices y. The entries of A(t) are given by formulas."""
+"""The field A(t) y, where y is a vector or a matrix. The entries of A(t) are formulas."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ class LinearField(MatrixField):
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return A(t) row by row. The argument ``x`` has no effect, because A does not depend on the state.
+        """Return the entries of A(t) row by row. A(t) does not depend on ``x``.
+
         Use this method only for small matrices.
         """
         n = self.rows

@@ -1,4 +1,4 @@
-"""Linear scenes: y' = A(t).y, where A may contain the time and parameters, but not the state."""
+"""Linear scenes: y' = A(t).y. The formulas in A contain the time and parameters, but not the state."""
 
 from __future__ import annotations
 
@@ -38,15 +38,15 @@ def LinearScene(
     """Return the scene y' = A(t).y for a group acting on a manifold.
 
     ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
-    matrices it may also be a square matrix of formulas, which must be in the Lie algebra. ``y`` contains
-    the symbols of the coordinates in ``velocity`` and ``invariants``. By default they are named y0, y1 and so
-    on. All other arguments are those of :func:`codegen.scene.FieldScene`. For y' = y A(t), use the action
+    matrices, ``A`` can also be an n x n matrix of formulas. This matrix must be in the Lie algebra. ``y``
+    contains the symbols of the coordinates in ``velocity`` and ``invariants``, by default y0, y1 and so on.
+    :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
     ``RightMultiplication()`` and pass -A in place of A.
 
-    ``steps`` defines additional methods y1 = M y0 by formulas for the matrix M. It maps the name of each
-    method to a pair: the formula (:mod:`codegen.scene.matrix_step`) and the order. The method is then called
-    ``step:NAME``. :class:`SceneError` is raised if ``A`` depends on the state, or is a matrix outside of the
-    Lie algebra. It is also raised for the errors that ``FieldScene`` lists.
+    ``steps`` defines methods y1 = M y0 with a matrix M. The keys are names. Each value is a pair: a formula
+    for M (:mod:`codegen.scene.matrix_step`) and the order of the method. Commands call the method
+    ``step:NAME``. :class:`SceneError` is raised if ``A`` depends on the state, if the matrix ``A`` is not in
+    the Lie algebra, and for the errors that ``FieldScene`` lists.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
@@ -83,14 +83,14 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Return the methods that the scene defines by formulas. The keys of the result are their names.
+    """Return the methods that the scene defines by formulas. The keys are the names of the methods.
 
     SceneError is raised in four cases:
 
     - The group does not act by multiplication with matrices.
-    - An exponential or a logarithm in a formula has no closed form.
+    - A formula contains an exponential or a logarithm without a closed form.
     - The order of a method is not a positive integer.
-    - A does not depend on the time.
+    - The matrix A does not depend on the time.
     """
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():
@@ -104,10 +104,10 @@ def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> di
         long = next(formula.closed_forms(), None)
         if matrices.order > 2 and long is not None:
             raise SceneError(
-                f"{long.text()} of a {matrices.order} x {matrices.order} matrix outside of the algebra",
+                f"{long.text()} for {matrices.order} x {matrices.order} matrices has no closed form",
                 where=where,
-                expected="exp of an element of the algebra, or matrices with two rows",
-                hint="only matrices with two rows have closed forms of exp and log",
+                expected="2 x 2 matrices, or exp of an element of the Lie algebra",
+                hint="a logarithm is permitted only for 2 x 2 matrices",
             )
         if not isinstance(order, int) or order < 1:
             raise SceneError(f"the order {order!r}", where=where, expected="a positive integer")
@@ -117,8 +117,9 @@ def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> di
 
 
 def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.Expr]:
-    """Return the coordinates of a matrix in the Lie algebra of ``group``. SceneError is raised if the matrix
-    is not in the algebra.
+    """Return the coordinates of ``matrix`` in the basis of the Lie algebra of ``group``.
+
+    SceneError is raised if ``matrix`` is not in the Lie algebra.
     """
     from sympy import Matrix, Rational, simplify
 

@@ -1,4 +1,4 @@
-"""Fields on Stiefel manifolds that are given by formulas in matrices, such as A X - X (X^T A X)."""
+"""Fields V(X) on Stiefel manifolds, where V is a formula in matrices such as A X - X (X^T A X)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from codegen.ir.expr import walk
 
 @dataclass(frozen=True)
 class MatrixField:
-    """A tangent field V(X) on the matrices with orthonormal columns; ``program`` computes V.
+    """A tangent field V(X) on the n x k matrices X with orthonormal columns; ``program`` computes V.
 
-    The generator of the motion at X is the skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2. Then
-    V = S X, and the rank of S is at most twice the number of columns of X.
+    The skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2 satisfies V = S X. The rank of S is at most 2k.
     """
 
     program: ArrayProgram

@@ -2,8 +2,7 @@
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
-fewest operations. For a matrix X with n rows, the product ``X @ X.T @ A @ X`` therefore forms no matrix with
-n^2 entries.
+fewest multiplications. In the example, no product is an 800 x 800 matrix.
 
 >>> X = unknown(800, 4)
 >>> A = banded(800, {-1: -1, 0: 2, 1: -1})
@@ -27,19 +26,18 @@ Coefficient = Union["sympy.Expr", int, float]
 """A scalar factor in a formula."""
 
 EntryFormula = Union[Callable[..., "Coefficient"], Sequence["Coefficient"], "Coefficient"]
-"""The entries of a matrix or of one diagonal. They are given by a function of the indices, by a list of all
-entries, or by one number that is the value of all entries.
+"""The entries of a matrix or a diagonal: a function of the indices, a list, or one scalar for all entries.
 """
 
 
 class MatrixFormula:
-    """A matrix in a formula, with its numbers of rows and columns."""
+    """A formula whose value is a matrix."""
 
     rows: int
     columns: int
     __array_ufunc__: ClassVar[None] = None
-    """The value None makes NumPy use the operators of this class for ``array * formula``. Otherwise NumPy
-    would treat the formula as an entry of an array."""
+    """This value makes NumPy use the operators of this class, for example in ``array * formula``. By default,
+    NumPy would apply ``*`` to each entry of the array."""
 
     @property
     def T(self) -> MatrixFormula:
@@ -147,13 +145,14 @@ def unknown(rows: int, columns: int) -> Unknown:
 
 
 def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
-    """Return a matrix that is zero outside some diagonals. By default the matrix is square.
+    """Return a matrix that is zero outside the given diagonals. By default, the matrix is square.
 
-    ``diagonals`` maps an offset j - i to the entries a_ij of a diagonal. The entries are given by one scalar
-    for the whole diagonal, by a function of the row i, or by a list of all entries. Rows and columns are
-    counted from 0. Emitted code contains all numbers of a list, but only one line for a scalar or a function.
-    :class:`SceneError` is raised for an offset outside the matrix. The length of a list is tested later, when
-    the scene reads the matrix.
+    ``diagonals`` maps the offset j - i of a diagonal to the entries a_ij of this diagonal. Give one scalar
+    for the whole diagonal, a function of the row i, or a list of all entries. Rows and columns are counted
+    from 0. For a scalar or a function, the emitted code does not become longer with the number of rows.
+
+    :class:`SceneError` is raised for an offset outside the matrix. A list of a wrong length is rejected when
+    the scene is defined.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -171,10 +170,9 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 
 
 def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
-    """Return a full matrix. Its entries are given by a function of row and column, counted from 0, or by a
-    list of rows.
+    """Return a full matrix. ``entries`` is a function of the row and the column, or a list of rows.
 
-    If the matrix is multiplied by a vector, the product takes rows x columns multiplications.
+    Rows and columns are counted from 0. A product with a vector takes rows x columns multiplications.
     """
     _size(rows, "rows")
     _size(columns, "columns")
@@ -182,8 +180,7 @@ def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
 
 
 def _sized(formula: MatrixFormula, rows: int, columns: int) -> None:
-    # The size of a formula is computed from its parts. ``__setattr__`` of ``object`` is needed, because the
-    # classes are frozen.
+    # The classes are frozen and permit no assignment ``formula.rows = rows``.
     object.__setattr__(formula, "rows", rows)
     object.__setattr__(formula, "columns", columns)
 

@@ -1,9 +1,7 @@
-"""Translation of formulas of matrices (:mod:`codegen.scene.matrix_formula`) into array programs.
+"""Translation of matrix formulas (:mod:`codegen.scene.matrix_formula`) into array programs.
 
-A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in the order that needs the
-fewest multiplications. If the unknown X has n rows and few columns, this order avoids matrices with n rows
-and n columns. Equal products are computed once. Matrices with more columns than rows are stored as their
-transposes.
+The transpose (A B)^T of a product is computed as B^T A^T. Each product is computed in the order that needs
+the fewest multiplications. Equal products are computed only once.
 """
 
 from __future__ import annotations
@@ -50,7 +48,10 @@ ARGUMENT, RESULT = "point", "velocity"
 
 @dataclass(frozen=True)
 class _Factor:
-    """A factor of a product: the unknown, a constant matrix, or a sum, possibly transposed."""
+    """A factor of a product. If ``transposed`` is True, the factor is the transpose of ``formula``.
+
+    ``formula`` is the unknown X, a constant matrix or a sum.
+    """
 
     formula: MatrixFormula
     transposed: bool
@@ -70,9 +71,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A value that the program has computed and stored: the matrix ``matrix``, or its transpose if
-    ``transposed`` is True.
-    """
+    """A computed matrix. If ``transposed`` is True, ``matrix`` is the transpose of the computed matrix."""
 
     matrix: Matrix
     transposed: bool = False
@@ -91,10 +90,14 @@ Summand = tuple[Expr, tuple[_Factor, ...]]
 
 
 def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
-    """Return the program that computes a formula in the unknown ``x``.
+    """Return the program that computes a formula in the unknown matrix ``x``.
 
-    :class:`SceneError` is raised for an unknown other than ``x``, for a formula whose size is not that
-    of ``x``, for entries that cannot be read, and for a summand that does not contain ``x``.
+    :class:`SceneError` is raised in four cases:
+
+    - The formula and ``x`` have different sizes.
+    - The formula contains another unknown.
+    - A summand does not contain ``x``.
+    - An entry of a constant matrix is invalid.
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
@@ -105,11 +108,9 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
 
 
 def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
-    """Return the terms of a sum of multiples of constant matrices. Each term is a pair of coefficient and
-    matrix.
+    """Return the pairs (c, C) of a sum of terms c C, where c is a scalar and C is a constant matrix.
 
-    :class:`SceneError` is raised for products of matrices, for an unknown, and for entries that cannot be
-    read.
+    :class:`SceneError` is raised for a product of matrices, for an unknown, and for an invalid entry.
     """
     compiler = _Compiler(reader, Unknown(formula.rows, 1))
     terms: list[tuple[Expr, ConstantMatrix]] = []
@@ -169,16 +170,17 @@ class _Compiler:
         """Return a formula as a factor; raise :class:`SceneError` for an unknown other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
-                "the velocity contains an unknown that is not the unknown x of the scene",
+                "the velocity contains a matrix unknown(...) other than x",
                 where=self.reader.name,
                 expected="a formula in x",
             )
         return _Factor(formula, transposed)
 
     def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
-        """Return the coefficient and the factors of a formula, or of its transpose if ``transposed`` is True.
+        """Return the coefficient and the factors of a formula.
 
-        A formula that is not a product has one factor.
+        If ``transposed`` is True, use the transpose of the formula. A formula that is not a product has one
+        factor.
         """
         match formula:
             case Times(left=left, right=right):
@@ -193,11 +195,10 @@ class _Compiler:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Multiply out sums among the factors of a product. Yield the resulting products, multiplied by c.
+        """Expand sums among the factors of a product. Yield the resulting products, multiplied by c.
 
-        Let k be the number of columns of the unknown X. A sum is multiplied out if one of its terms is a
-        constant matrix. A sum with more than k rows and more than k columns is also multiplied out. Other
-        sums stay factors.
+        A sum is expanded in two cases: a term of the sum is a constant matrix, or the sum is large. A sum is
+        large if its numbers of rows and columns both exceed the number of columns of X.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -214,7 +215,7 @@ class _Compiler:
         values = [(c, self.product(factors)) for c, factors in summands]
         if len(values) == 1 and values[0][0] is self.reader.space.one:
             return values[0][1]
-        # A matrix with more columns than rows is stored as its transpose.
+        # If the sum has more columns than rows, the program stores the transpose of the sum.
         flipped = columns > rows
         target = self.fresh(*((columns, rows) if flipped else (rows, columns)))
         terms = tuple(Term(c, v.matrix, v.transposed is not flipped) for c, v in values)
@@ -226,7 +227,7 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the stored product of the factors; equal products are computed and stored only once."""
+        """Return the stored product of the factors. Compute each product only once."""
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -244,7 +245,7 @@ class _Compiler:
         return self.multiplied(self.product(left), self.product(right))
 
     def single(self, factor: _Factor) -> _Stored:
-        """Return the stored matrix of a single factor, which is the unknown or a sum."""
+        """Return the stored value of a single factor. Raise SceneError if the factor is a constant matrix."""
         if factor.constant is not None:
             raise self.constant_product()
         if isinstance(factor.formula, Unknown):
@@ -267,8 +268,8 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # For example, let C be the constant matrix, let Z be a stored matrix, and let C Z^T be needed. The
-        # program then computes Z C^T, which is the transpose of C Z^T.
+        # Let C be the constant matrix and Z a stored matrix. In place of C Z^T, the program computes the
+        # transpose Z C^T.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -281,7 +282,7 @@ class _Compiler:
         """Return the product of two matrices that depend on X."""
         rows, columns = left.rows, right.columns
         if columns > rows:
-            # A product A B with more columns than rows is stored as its transpose: (A B)^T = B^T A^T.
+            # If the product A B has more columns than rows, the program stores (A B)^T = B^T A^T.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
             self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))
@@ -291,8 +292,10 @@ class _Compiler:
         return _Stored(target)
 
     def constant(self, given: Constant, *, transposed: bool = False) -> ConstantMatrix:
-        """Return a constant matrix in the form that array programs use. If ``transposed`` is True, return its
-        transpose."""
+        """Return the matrix ``given`` in the form that array programs use.
+
+        If ``transposed`` is True, return the transpose of ``given``.
+        """
         key = id(given), transposed
         if key not in self.constants:
             name = f"matrix_{len(self.constants) + 1}"
@@ -304,8 +307,8 @@ class _Compiler:
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
     """Return the statements without a superfluous copy at the end.
 
-    If the last statement only copies the matrix that the second-to-last statement computes, the copy is
-    omitted, and the second-to-last statement computes the result directly.
+    The last statement stores the result. If this statement only copies the matrix of the previous statement,
+    the previous statement stores the result instead.
     """
     *before, last = body
     assert isinstance(last, Combination)
@@ -316,9 +319,10 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 
 
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
-    """Return the least number of scalar multiplications for a product of matrices, and the best split.
+    """Return the least number of scalar multiplications for a product of matrices, and a number k.
 
-    The split is the number of factors to the left of the last multiplication.
+    The best order first multiplies the first k factors and the remaining factors separately. At the end, it
+    multiplies the two results.
     """
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
@@ -362,8 +366,8 @@ def _filled(constant: Constant) -> float:
 def _transposed(given: Constant) -> Constant:
     """Return the transpose of a constant matrix."""
     if given.diagonals is not None:
-        # A diagonal and the corresponding diagonal of the transpose have the same entries in the same order.
-        # A list of entries therefore stays unchanged.
+        # The diagonal ``offset`` of a matrix has the same list of entries as the diagonal ``-offset`` of the
+        # transpose.
         diagonals = {-offset: _shifted(entry, offset) for offset, entry in given.diagonals.items()}
         return Constant(given.columns, given.rows, diagonals, None)
     entries = given.entries
@@ -378,10 +382,10 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of a diagonal of A^T, where A is a matrix.
+    """Return the entries of the diagonal ``-offset`` of A^T, where A is a matrix.
 
-    ``entry`` contains the entries a_{i, i + offset} of A. If ``entry`` is a function of the row i, the result
-    is the function i -> ``entry(i - offset)``. Otherwise the result is ``entry``.
+    ``entry`` contains the entries of the diagonal ``offset`` of A. The entry in the row i of A^T is in the
+    row i - offset of A. Therefore a function of the row is shifted. Lists and scalars stay unchanged.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
@@ -399,9 +403,8 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first, because it has an entry in every row. Emitted code can first set each row
-    # of the product to the contribution of the main diagonal, and then add the contributions of the other
-    # diagonals.
+    # The main diagonal comes first. If the matrix is square, the main diagonal has an entry in every row.
+    # Emitted code can then set each row of a product to this contribution, and add the other contributions.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")
@@ -410,9 +413,9 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 
 
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
-    """Return the entries of a matrix or a diagonal: a formula in the indices, or ``size`` numbers.
+    """Return the entries of a matrix, or of a diagonal, as a formula in the indices or as a tuple of numbers.
 
-    SceneError is raised for a list whose length is not ``size``, and for an entry that is not rational.
+    If ``given`` is a list, it must contain ``size`` rational numbers. Otherwise SceneError is raised.
     """
     if callable(given):
         given = given(*indices)
@@ -431,7 +434,7 @@ def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], siz
 
 
 def _flat(given: object) -> list[object] | None:
-    """Return the entries of a list, of a list of rows, or of an array; None for a scalar."""
+    """Return all entries of a list, a list of rows or an array in one list. For a scalar, return None."""
     if hasattr(given, "tolist"):
         given = given.tolist()
     if not isinstance(given, list | tuple):
