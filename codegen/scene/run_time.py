@@ -13,11 +13,13 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem in which some parameters are run-time inputs, or constants with another value.
+    """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
-    An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` makes alpha the
-    constant 1/2. The invariants and the initial state are then checked with this value. :class:`SceneError`
-    is raised for an unknown parameter, for two values of one parameter, and for a value that is not a number.
+    An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
+    1/2. If ``names`` sets a value, the initial state and the invariants are checked again.
+
+    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, and for a value
+    that is not a number.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()

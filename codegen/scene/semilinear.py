@@ -1,4 +1,4 @@
-"""Semilinear problems u' = L u + N(u) on a periodic interval, and a model problem for a single number u."""
+"""Semilinear problems u' = L u + N(u) on a periodic interval, and a scalar model problem to verify steps."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from codegen.scene.problem import TIME, Problem
 TERMS = 20
 """The number of brackets after which the model problem truncates the series of dexp^{-1}.
 
-The coefficient of order k of this series decreases like (2 pi)^-k. The step size times the eigenvalue of the
-model is below 1/4 in absolute value. The omitted terms are therefore below (8 pi)^-21 = 4e-30.
+Term k of the series is about (z/(2 pi))^k, where z is the step size times the eigenvalue of the model. The
+verified steps have length at most 1/2, so |z| is at most 1/4. The omitted terms are below (8 pi)^-21 = 4e-30.
 """
 
 
@@ -26,16 +26,15 @@ class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
     - ``wave``, ``space``: the symbols of the wave number and of x.
-    - ``symbol``: the real part of the eigenvalue of L as a formula in the wave number. If the imaginary part
-      is not zero, its formula is the second entry.
+    - ``symbol``: the eigenvalue of L as a formula in the wave number. The first entry is the real part. If
+      the imaginary part is not zero, it is the second entry.
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
-    - ``formulas``: pointwise formulas that may contain u and derivatives of u.
-    - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
-    - ``outer``: for each formula i, the order m_i with which the formula is differentiated with respect to x.
-      N is the sum of these derivatives.
-    - ``kept``: the fraction of the Fourier modes of N that are kept. The modes with the highest wave numbers
-      are replaced by zero.
+    - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum over i of the x-derivatives of g_i of
+      order m_i. A formula g_i may contain u and derivatives of u.
+    - ``inner``: for each derivative of u in ``formulas``, its order and its symbol.
+    - ``kept``: a fraction. This fraction of the Fourier modes of N is kept. The modes with the highest wave
+      numbers are replaced by zero.
     - ``timed``: True if N depends on the time.
     """
 
@@ -57,10 +56,10 @@ class Semilinear:
 
 
 class ExactExponential(CoordinateMap):
-    """The exponential map of the group of affine maps, with its exact inverse differential.
+    """The exponential map of the group of affine maps.
 
-    Emitted code computes the inverse differential by a closed form (:mod:`codegen.kernel.mode_kernel`). For
-    the model problem (:func:`model_of`), a series of :data:`TERMS` brackets is computed.
+    Emitted code computes its inverse differential by a closed form (:mod:`codegen.kernel.mode_kernel`). The
+    model problem (:func:`model_of`) uses the series of the inverse differential with :data:`TERMS` brackets.
     """
 
     name = "exp"
@@ -79,10 +78,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return a model problem with which step programs are verified: u' = -u/2 + N(u) for one number u.
+    """Return the model problem u' = -u/2 + N(u) for one number u. Step programs are verified on this problem.
 
-    N(u) is u^2, or u^2 + t if the nonlinear term of the given problem depends on the time. A step program is
-    the same for all eigenvalues and all N, so one model suffices.
+    If the nonlinear term of the scene depends on the time, N(u) is u^2 + t. Otherwise N(u) is u^2. One model
+    suffices, because a step program is the same for all linear operators L and all nonlinear terms.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -33,7 +33,7 @@ A product of two kept modes has no alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
-"""The wave numbers k for a test of L. Its Fourier symbol must have complex conjugate values at k and -k."""
+"""Wave numbers k for a test of L. The values of the Fourier symbol of L at k and -k must be conjugate."""
 
 DIGITS_OF_PI = 60
 """The number of digits of the rational number that replaces pi in formulas."""
@@ -60,15 +60,15 @@ def SemilinearScene(
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
       c Dx(g, m), where g is a formula in the same symbols. The factor c must not depend on ``u`` and ``x``.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
-    - ``dealias``: the fraction of the Fourier modes of N that are kept. True means 2/3, False means 1.
+    - ``dealias``: a fraction. This fraction of the Fourier modes of N is kept. True means 2/3, False means 1.
 
-    Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
-    Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps
-    exp(t L) u + c, and are therefore exponential integrators.
+    Emitted code computes with the values of u at n equally spaced points. The number n is a run-time
+    argument. Explicit methods of the families rkmk, cf and cg are possible. They use the affine maps
+    u -> exp(t L) u + c as the group action, so they are exponential integrators.
 
-    :class:`SceneError` is raised for an operator that does not map real functions to real functions, and for
-    nested derivatives. The error is also raised for formulas that contain other symbols or a choice between
-    formulas, such as Piecewise.
+    :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
+    contains derivatives other than those of ``u``. It is also raised if a formula contains an unknown symbol
+    or a choice between formulas, such as Piecewise.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -113,10 +113,7 @@ class _Parser:
         self.reader.coordinates = []
 
     def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
-        """Return the real part of the Fourier symbol of L.
-
-        If the imaginary part is not zero, it is the second entry of the result.
-        """
+        """Return the Fourier symbol of L: its real part, and its imaginary part if this is not zero."""
         import sympy
 
         real = sympy.Symbol(self.k, real=True)
@@ -137,8 +134,8 @@ class _Parser:
     def nonlinear(self, N: sympy.Expr) -> tuple[tuple[tuple[int, str], ...], dict[int, Expr]]:
         """Return N as a pair (inner, terms).
 
-        ``inner`` contains the orders of the derivatives of u in N, each with its symbol. ``terms`` maps
-        orders to formulas: N is the sum over m of the derivative of order m of the formula ``terms[m]``.
+        ``inner`` contains the order and the symbol of each derivative of u in N. ``terms`` maps orders m to
+        formulas. Differentiate ``terms[m]`` m times with respect to x: the sum over all m is N.
         """
         import sympy
 
@@ -155,7 +152,7 @@ class _Parser:
                 raise SceneError(
                     f"the nested derivative {atom}",
                     where=self.name,
-                    expected="Dx(g, m) with a formula g whose only derivatives are Dx(u), Dx(u, 2) and so on",
+                    expected="Dx(g, m), where g contains no derivatives except Dx(u), Dx(u, 2) and so on",
                 )
             dummies[sympy.Dummy()] = atom
         linear = formula.subs({atom: dummy for dummy, atom in dummies.items()})
@@ -187,7 +184,7 @@ class _Parser:
         """Convert a sympy formula to an expression. The formula may contain the symbols in ``more``, t and
         parameters.
 
-        SceneError is raised for a derivative, and for a choice between formulas such as Piecewise or Max.
+        SceneError is raised if the formula contains a derivative, or a choice such as Piecewise or Max.
         """
         import sympy
 
@@ -236,7 +233,7 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return the fraction of the Fourier modes of the nonlinear term that are kept."""
+    """Return which fraction of the Fourier modes of the nonlinear term is kept."""
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)
@@ -256,9 +253,10 @@ def _check(
     period: Expr,
     parameters: dict[str, Number],
 ) -> None:
-    """Raise :class:`SceneError` if the period is not positive, or if L maps a real function to a complex one.
+    """Raise :class:`SceneError` if the period is not positive, or if L does not map real functions to real
+    functions.
 
-    L maps real functions to real functions if its Fourier symbol has complex conjugate values at k and -k.
+    The test of L compares the Fourier symbol at k and -k. The two values must be complex conjugate.
     """
     domain = FloatDomain(0.0)
     values: dict[str, float] = {name: float(number) for name, number in parameters.items()}

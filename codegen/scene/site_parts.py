@@ -1,10 +1,12 @@
-"""Parts of the field of a lattice, where each part has an exact flow. A part is either local, or an
-interaction of pairs of neighbours.
+"""Parts of the field of a lattice. The exact flow of each part is known. A part acts on single sites, or
+couples pairs of neighbours.
 
 A part is given by an element f(y) of the Lie algebra. The generators of the part are formulas for the
-components of f(y). The velocity of a site is the sum of the velocities f(y).y of all parts. If the generators
-of a part are constant along the solutions of this part alone, the exact flow of the part over a time tau is
-y -> exp(tau f(y)).y.
+components of f(y). The dot denotes the action of the group or of its Lie algebra on states y. A part
+contributes f(y).y to the velocity of a site. The velocity of the site is the sum of these contributions.
+
+The generators must be constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau
+is then y -> exp(tau f(y)).y.
 
 The flows of two pairs commute if the pairs share no site. The pairs along an axis of the lattice are
 therefore divided into two sets. The first site of each pair has an even index in one set, and an odd index in
@@ -35,9 +37,9 @@ if TYPE_CHECKING:
 class Pair:
     """The interaction of the sites i and i + offset.
 
-    ``first`` contains the generators of site i, and ``second`` contains the generators of the other site. The
-    generators are the components of an element of the Lie algebra, as formulas in the coordinates of both
-    sites.
+    ``first`` contains the generators of site i, and ``second`` contains the generators of site i + offset.
+    The generators of a site are the components of an element of the Lie algebra. They are formulas in the
+    coordinates of both sites.
     """
 
     offset: Sequence[int]
@@ -51,10 +53,10 @@ Stated = Mapping[str, "Pair | Sequence[sympy.Expr]"]
 def read_parts(
     reader: Reader, y: Sequence[sympy.Symbol], size: int, parts: Stated | None
 ) -> tuple[SitePart, ...]:
-    """Return the parts of the field that the scene lists. ``size`` is the dimension of the group.
+    """Read the argument ``parts`` of a scene. ``size`` is the dimension of the group.
 
-    If a part is a :class:`Pair`, its offset must be 1 along one axis and 0 along all other axes. SceneError
-    is raised for any other offset, and for formulas that contain unknown symbols.
+    The offset of a :class:`Pair` must be 1 along one axis and 0 along all other axes. SceneError is raised
+    for any other offset, and for formulas with unknown symbols.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -81,14 +83,14 @@ def _read(
 
 
 def check_parts(scene: Problem, orbit: Orbit) -> None:
-    """Raise SceneError if a part of the field depends on time or has no exact flow, or if the parts do not
-    add up to the field.
+    """Raise SceneError if the parts of the field violate one of the following conditions.
 
-    The generators of a part are the components of the part, which is an element of the Lie algebra. They must
-    be constant along the flow of the part. The sum of the velocities of all parts must be equal to the
-    velocity of the field.
+    - No part depends on time.
+    - The axis of each pair is an axis of the lattice.
+    - The generators of each part are constant along the flow of this part.
+    - The velocities of all parts add up to the velocity of the field.
 
-    ``orbit`` contains the sample points of one site.
+    ``orbit`` contains sample points for the state of one site.
     """
     sites = scene.sites
     assert sites is not None
@@ -109,9 +111,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and the velocities of these coordinates under the flow
-    of the part.
-    """
+    """Return the coordinates of the one or two sites of a part, and their time derivatives along its flow."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -152,8 +152,8 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
     """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field.
 
-    At an open boundary some neighbours do not exist. The test is therefore repeated without each
-    neighbour in turn, and then without all neighbours.
+    At an open boundary, some neighbours are missing. On an open lattice, the test therefore also removes each
+    neighbour alone, and all neighbours together.
     """
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}
@@ -174,7 +174,7 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
             total = _summed(scene, orbit, sites, point, {o: x for o, x in states.items() if o not in absent})
             for x, y in zip(total, expected, strict=True):
                 if not orbit.sized(x - y, (x, y, 1)):
-                    where = f" where the neighbours {sorted(absent)} do not exist" if absent else ""
+                    where = f" if the neighbours {sorted(absent)} do not exist" if absent else ""
                     raise SceneError(
                         f"the parts add up to the velocity {orbit.text(x)}{where}",
                         where=scene.name,
@@ -216,8 +216,10 @@ def _summed(
     point: Mapping[str, mpmath.mpf],
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
 ) -> list[mpmath.mpf]:
-    """Return the velocity of a site: the sum of the velocities of all local parts, and of all pairs that the
-    site forms with its neighbours. ``states`` contains only the neighbours that exist.
+    """Return the velocity of a site as the sum of the velocities of all parts.
+
+    A part that couples two sites counts once for each neighbour along its axis. ``states`` contains only the
+    neighbours that exist.
     """
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)

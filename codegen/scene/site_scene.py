@@ -1,6 +1,7 @@
-"""Site scenes: chains and lattices of equal sites with the equations y_i' = f_i.y_i.
+"""Site scenes: chains and lattices of sites. The equation of site i is y_i' = f_i.y_i.
 
-The element f_i of the Lie algebra depends on the state y_i of the site i and on the states of its neighbours.
+The element f_i of the Lie algebra acts on the state y_i. It depends on y_i and on the states of the
+neighbours of site i. The formula for f_i is the same for all sites.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ def SiteScene(
     name: str = "scene",
     title: str = "",
 ) -> Problem:
-    """Return the scene of a chain or lattice of equal sites. Emitted code accepts any number of sites.
+    """Return the scene of a chain or lattice with any number of sites. All sites have the same equation.
 
     - ``y``: the coordinates of a site, on which ``group`` acts.
     - ``f``: a column of ``group.dim`` formulas in ``y``, the time t, parameters, and the coordinates of
@@ -62,18 +63,18 @@ def SiteScene(
     - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour. It is a column of
-      formulas in ``y``, t and parameters, or a mapping from offsets to columns. At a free end, write zeros or
-      ``y``, so that the forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
-    - ``parts``: summands of the field. Splittings compose their exact flows. A part is a column of formulas
-      in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
+      formulas in ``y``, t and parameters, or a mapping from offsets to columns. At a free end, the state must
+      exert no force: write zeros or ``y``. Constants describe a clamped end, formulas in t a driven end.
+    - ``parts``: the summands of the field. Splitting methods compose the exact flows of the summands. A part
+      is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: the energy of a site, and the energies of pairs of neighbours (:class:`Bond`).
       The sum of these energies over the lattice is the total energy, which discrete gradients need.
     - ``invariants``: functions of the state of one site. They must be constant along the solutions at every
       site, for arbitrary states of the neighbours.
 
-    :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
-    different lengths, for a missing neighbour without a formula in ``outside``, for parts that do not add up
-    to the field or have no exact flow, and for a total energy that is not constant.
+    :class:`SceneError` is raised for the errors of a field scene, for offsets of different lengths and for a
+    missing neighbour without formulas in ``outside``. It is also raised if the parts do not add up to the
+    field, if a part has no exact flow, or if the total energy is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -113,9 +114,10 @@ def _check(problem: Problem) -> None:
 def _with_energy(
     reader: Reader, sites: Sites, y: Sequence[sympy.Symbol], energy: sympy.Expr | None, bonds: Sequence[Bond]
 ) -> Sites:
-    """Return the lattice ``sites``, completed by the formulas for the energies of a site and of its bonds.
+    """Add the energies of a site and of its bonds to ``sites``, and return the result.
 
-    SceneError is raised for a bond with the offset d if the field does not read the neighbours at d and -d.
+    For a bond with the offset d, the field must read the neighbours at d and -d. Otherwise SceneError is
+    raised.
     """
     if energy is None and not bonds:
         return sites
@@ -125,8 +127,8 @@ def _with_energy(
             raise SceneError(
                 f"a bond with the offset {tuple(bond.offset)}",
                 where=reader.name,
-                expected=f"an offset d such that f reads the neighbours at d and -d; f reads the neighbours "
-                f"at {', '.join(map(str, sites.offsets))}",
+                expected=f"an offset d such that f reads the neighbours at d and -d; the offsets in f are "
+                f"{', '.join(map(str, sites.offsets))}",
             )
     own = reader.space.zero if energy is None else reader.scalar(energy, "energy")
     shared = energies_of_bonds(reader, y, bonds, sites.offsets)
@@ -158,16 +160,16 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site with fixed neighbours. The coordinates of the neighbours are parameters.
 
-    The values of these parameters are near the initial state of a site. Only comparisons of formulas use
-    these values; emitted code reads the states of the neighbours.
+    The values of these parameters are near the initial state of a site. The checks of the formulas use these
+    values. Emitted code uses the states of the neighbours.
     """
     sites = scene.sites
     assert sites is not None
     start = [Fraction(float(x)).limit_denominator(1000) for x in scene.initial(FloatDomain(0.0))]
     values = dict(scene.parameters)
     for number, column in enumerate(sites.symbols, 1):
-        # The states of the site and of its neighbours are all different. For equal states, formulas that
-        # contain the difference of two states may be singular, or zero by accident.
+        # The states of the site and of its neighbours are all different. If two states were equal, a formula
+        # with the difference of these states could be singular or could vanish by accident.
         shifted = [x + Fraction((7 * k + 3 * number) % 11 - 5, 97) for k, x in enumerate(start)]
         values |= {
             s: Number.rational(x.numerator, x.denominator) for s, x in zip(column, shifted, strict=True)
@@ -207,10 +209,11 @@ def outside_states(
     outside: Sequence[sympy.Expr] | Outside | None,
     offsets: tuple[Offset, ...],
 ) -> tuple[tuple[Expr, ...], ...]:
-    """Return formulas for the states that replace missing neighbours at an open boundary: one column for each
-    offset.
+    """Return a column of formulas for each offset: the state that replaces a missing neighbour.
 
-    Return () for a periodic lattice. SceneError is raised for missing and for superfluous columns.
+    For a periodic lattice, return (). SceneError is raised if an open lattice has no column for an offset, or
+    has a column for an offset that the field does not read. It is also raised if a periodic lattice has the
+    argument ``outside``.
     """
     if boundary not in (PERIODIC, OPEN):
         raise SceneError(f"the boundary {boundary!r}", where=reader.name, expected=f"{PERIODIC} or {OPEN}")

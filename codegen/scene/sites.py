@@ -26,7 +26,7 @@ Offset = tuple[int, ...]
 
 
 def offset_text(offset: Offset) -> str:
-    """Return the text that denotes an offset in the names of symbols.
+    """Return the suffix for an offset. The symbol of a neighbour's coordinate ends with this suffix.
 
     >>> offset_text((1,)), offset_text((0, -1))
     ('at_p1', 'at_0_m1')
@@ -38,9 +38,9 @@ _NEIGHBOUR = re.compile(r"(.+)_at_((?:0|[pm][1-9])(?:_(?:0|[pm][1-9]))*)")
 
 
 def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
-    """Return the offset of the neighbour to which a symbol belongs. For any other symbol, return None.
+    """Return the offset of a neighbour if ``symbol`` is one of its coordinates. Otherwise return None.
 
-    ``coordinates`` contains the coordinates of a site.
+    ``coordinates`` contains the names of the coordinates of a site.
 
     >>> offset_of("S0_at_0_m1", ["S0"]), offset_of("S0", ["S0"])
     ((0, -1), None)
@@ -94,11 +94,13 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 
 @dataclass(frozen=True)
 class SitePart:
-    """A part of the field of a lattice whose exact flow is known.
+    """A part of the field of a lattice. The exact flow of the part is known.
+
+    If the part acts on single sites, ``roots`` contains the generators of one site.
 
     If the part couples two neighbours along ``axis``, ``roots`` contains the generators of the first site and
     then the generators of the second site. ``symbols`` contains the names of the coordinates of the second
-    site. If the part acts on single sites, ``roots`` contains the generators of one site.
+    site.
     """
 
     name: str
@@ -112,9 +114,9 @@ class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of the neighbours' coordinates.
 
-    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary. The state
-      is given by formulas in the coordinates of the site, the time and parameters. For a periodic lattice,
-      ``outside`` is empty.
+    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary. The
+      formulas of this state may contain the coordinates of the site at the boundary, the time and parameters.
+      For a periodic lattice, ``outside`` is empty.
     - ``parts``: the parts of the field. Splitting methods compose the exact flows of the parts
       (:mod:`codegen.scene.site_parts`).
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
@@ -139,12 +141,13 @@ class Sites:
         return not self.outside
 
     def share(self, exists: Sequence[Expr | bool]) -> Expr:
-        """Return the share of a site in the total energy. The total energy is the sum of the shares of all
-        sites.
+        """Return the share of a site in the total energy. The shares of all sites add up to the total energy.
 
-        The share contains the energy of the site itself and one half of the energy of each bond. At an open
-        boundary, a bond may have no second site. The share then contains the whole energy of this bond.
-        ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0 otherwise.
+        The share contains the energy of the site. If both sites of a bond exist, the share contains one half
+        of the energy of the bond. If the neighbour is missing, the share contains the whole energy.
+
+        ``exists`` has one entry for each offset: true or 1 if the neighbour exists, false or 0 if it is
+        missing.
         """
         assert self.energy is not None
         share, space = self.energy, self.energy.space

@@ -1,9 +1,9 @@
-"""Coordinates that do not change: parameters that are part of the state of a system or of a site.
+"""Static coordinates: coordinates of the state that do not change. They act as parameters.
 
-Let y0 be the initial state. If the field f reads only the time and static coordinates, the solution satisfies
-a linear equation: y' = A(t).y. Here A(t) = f(y0, t) is an element of the Lie algebra, and the dot denotes its
-action on y. Methods for linear equations then apply. On a lattice, the field may also read the static
-coordinates of neighbours, because these coordinates keep their initial values.
+Let y0 be the initial state, and assume that the field f reads only the time and static coordinates. The
+solution then satisfies a linear equation y' = A(t).y, and methods for linear equations are possible. Here
+A(t) = f(y0, t) is an element of the Lie algebra, and the dot denotes its action on y. On a lattice, f may
+also read static coordinates of neighbours, because these coordinates are constant.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from codegen.scene.site_scene import with_frozen_neighbours
 def reads_only_static(scene: Problem) -> bool:
     """Return True if all coordinates that the field of a scene reads are static.
 
-    On a lattice, all coordinates of neighbours that the field reads must be static, too.
+    On a lattice, this includes the coordinates of neighbours and of the states outside an open boundary.
     """
-    # If a coordinate is static, usually a component of the generator is zero. If no component is zero, the
-    # function returns False at once. This saves the ambient equation, which takes long for a large field.
+    # A static coordinate usually results from a zero component of the generator. If no component is zero,
+    # return False at once, because the velocity formulas below are expensive for a large field.
     if not any(map(_vanishes, scene.roots)):
         return False
     one = scene if scene.sites is None else with_frozen_neighbours(scene)

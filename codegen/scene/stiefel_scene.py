@@ -1,4 +1,4 @@
-"""Stiefel scenes: X' = V(X) on n x k matrices with orthonormal columns, for large n."""
+"""Stiefel scenes: equations X' = V(X) for n x k matrices X with orthonormal columns. n may be large."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""The largest number n of rows for which the generator is also written as formulas for its coordinates in the
-Lie algebra of SO(n).
+"""The largest number n of rows for which the scene contains formulas for the generator in the coordinates of
+the Lie algebra of SO(n).
 
-Commands such as ``stability``, ``localerror`` and ``bench`` need these formulas. Methods that compute with
-coordinates of SO(n) need these formulas, too. The length of the formulas grows as n^3.
+Methods that compute in these coordinates need the formulas. The commands ``stability``, ``localerror`` and
+``bench`` need the formulas, too. The length of the formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10
-"""The largest permitted entry of y0^T y0 - 1.
+"""The largest permitted absolute value of an entry of y0^T y0 - I, where I is the identity matrix.
 
-For the velocity V at a matrix X with n rows, the largest permitted entry of X^T V + V^T X is the product of
-TOLERANCE, n and 1 + max |V_ij|.
+Let X be a matrix with n rows, and V the velocity at X. The absolute value of an entry of X^T V + V^T X must
+be at most TOLERANCE n (1 + max |V_ij|).
 """
 
 
@@ -59,9 +59,10 @@ def StiefelScene(
     - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
     - ``span``: the ends of the time interval, two rational numbers.
 
-    The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
-    cf and cg cost O(n k^2) operations besides the evaluations of V. If V contains a matrix that is given by a
-    list of its entries, the length of the code grows with n. Otherwise it does not depend on n.
+    The generator of the motion is the skew-symmetric matrix W X^T - X W^T, where W = V - X (X^T V)/2. A step
+    of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. If V
+    contains a matrix as a list of entries, the length of the code grows with n. Otherwise the length does not
+    depend on n.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
@@ -108,7 +109,7 @@ def _start(reader: Reader, x: Unknown, y0: Sequence[sympy.Expr] | None) -> tuple
 def _roots(
     reader: Reader, field: MatrixField, group: SO, symbols: tuple[str, ...], parameters: tuple[str, ...]
 ) -> tuple[Expr, ...]:
-    """Return the coordinates of the generator W X^T - X W^T in the Lie algebra of SO(n), as formulas."""
+    """Return formulas for the coordinates of the generator (:func:`StiefelScene`) in the Lie algebra."""
     domain = ExprDomain(reader.space)
     point = [reader.space.sym(s) for s in symbols]
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}
@@ -116,9 +117,8 @@ def _roots(
 
 
 def _check(problem: Problem, field: MatrixField) -> None:
-    """Raise :class:`SceneError` if the initial matrix is not orthonormal or V is not tangent.
-
-    V is tested at two points.
+    """Raise :class:`SceneError` if the initial matrix does not have orthonormal columns, or if the velocity V
+    is not tangent at one of two test points.
     """
     domain = FloatDomain(0.0)
     start = [float(value) for value in problem.initial(domain)]

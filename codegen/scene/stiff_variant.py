@@ -1,7 +1,7 @@
-"""Stiff variants of a scene: the same problem with a very short time scale, or near a singularity.
+"""Stiff variants of a scene. A variant has a very short time scale, or its solution comes near a singularity.
 
 The file of a gallery scene may define the function ``stiff_variants()``, which returns a list of variants.
-``orderconds stability`` measures the order of methods on each variant.
+The command ``orderconds stability`` measures the order of each method on each variant.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle, in radians, of the fastest undamped rotation in a stiff variant during its time span.
+"""A bound in radians for the fastest undamped rotation of a stiff variant.
 
-For angles above a few hundred radians the phase error hides the order of every explicit method.
+The rotation angle over the time span is at most this bound. At angles above a few hundred radians, the phase
+error of an explicit method is so large that its order cannot be measured.
 """
 
 

@@ -76,8 +76,8 @@ def table(
 
     - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
       ``linear``.
-    - ``outside``: the values beyond the table. ``hold`` continues with the value at the nearest point, and
-      ``extrapolate`` with the polynomial of the nearest interval.
+    - ``outside``: the values beyond the table. ``hold`` returns the value at the nearest point.
+      ``extrapolate`` evaluates the polynomial of the nearest interval.
 
     :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
     points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
@@ -109,9 +109,7 @@ def table(
 
 
 def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Return the coefficients of the linear interpolation: value and slope at the beginning of each
-    interval.
-    """
+    """Return the value at the left end and the slope of the linear interpolant, for each interval."""
     return [(c, (d - c) / (b - a)) for (a, b), (c, d) in zip(pairwise(xs), pairwise(ys), strict=True)]
 
 
@@ -158,7 +156,10 @@ def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fract
 def _joined(
     xs: Sequence[Fraction], ys: Sequence[Fraction], rows: list[tuple[Fraction, ...]], outside: str
 ) -> PiecewisePolynomial:
-    """Return the piecewise polynomial with the given rows of coefficients, extended beyond the table."""
+    """Return the piecewise polynomial with the given rows of coefficients.
+
+    ``outside`` selects the extension beyond the table (:func:`table`).
+    """
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
     # A piecewise polynomial needs a knot. Usually the inner points of the table are the knots. A table with
