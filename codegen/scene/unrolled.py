@@ -1,4 +1,4 @@
-"""A chain or lattice of few sites as one system: the product of the groups of all sites."""
+"""A chain or lattice of few sites as one system on the product of the groups of all sites."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ separate formulas for each site."""
 
 
 def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
-    """Return a lattice of the given shape as a field on the product of the groups of its sites.
+    """Return a lattice of the given shape as one system on the product of the groups of all sites.
 
-    The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. For a Hamiltonian scene, each site has the group T*G, and the Hamiltonian of the
-    result is the total energy of the lattice. If another scene defines an energy, the total energy of the
-    lattice is an invariant of the result.
+    The coordinates of site 0 come first. The last index of a site changes fastest. Every site has the initial
+    state of the scene. If the scene is Hamiltonian, each site has the group T*G, and the Hamiltonian of the
+    result is the total energy of the lattice. If the scene is not Hamiltonian but defines an energy, the
+    total energy is an invariant of the result.
 
-    :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
-    the lattice, and for too few or too many sites.
+    :class:`SceneError` is raised for a scene without sites, for a shape of the wrong length, and for too few
+    or too many sites.
     """
     sites = scene.sites
     if sites is None:
@@ -86,9 +86,8 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 def small(scene: Problem) -> Problem:
     """Return an unrolled lattice with few sites.
 
-    The size of a periodic lattice is chosen so that no site is its own neighbour. The size of an open lattice
-    is chosen so that at least one site has all neighbours. If this open lattice would have more than
-    :data:`MOST_SITES` sites, a smaller open lattice is returned.
+    In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all
+    neighbours. If this requires more than :data:`MOST_SITES` sites, a smaller open lattice is returned.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension
@@ -98,9 +97,9 @@ def small(scene: Problem) -> Problem:
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
-    """Return the number of a neighbour in the sequence of all sites, counted from 0.
+    """Return the position of a neighbour in the sequence of all sites. The first site has the position 0.
 
-    Return None if the site has no such neighbour because the boundary is open.
+    If the neighbour would lie beyond an open boundary, return None.
     """
     place = 0
     for i, d, n in zip(index, offset, shape, strict=True):

@@ -5,5 +5,4 @@ from __future__ import annotations
 from codegen.ir.domain import Scalar
 
 Bindings = dict[str, Scalar]
-"""Maps the name of each symbol in a formula to its value. All values are scalars of the same number
-domain."""
+"""The value of each symbol in a formula, by the name of the symbol. All values are from one number domain."""

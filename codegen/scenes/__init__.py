@@ -88,19 +88,19 @@ BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
 """The names of all scenes of the package."""
 
 EXTENDED = "+u"
-"""The suffix of a scene name that denotes the scene extended by u, the momentum conjugate to the time."""
+"""The suffix in the name of a scene on the extended phase space."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
-"""Maps the name of each registered scene to the scene and its description."""
+"""The registered scenes and their descriptions, by the name of the scene."""
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
-    """Register a scene under a name for all commands of this process, and return the scene with this name.
+    """Register a scene under a name, and return the scene with this name.
 
-    ``about`` describes the scene in reports. If the name is already registered, the new scene replaces the
-    old scene. :class:`SceneError` is raised for an object that is not a scene, for the name of a built-in
-    scene, and for a name that is not an identifier. A scene in a Python file needs no registration: commands
-    accept the path of the file as a name.
+    All commands of this process accept the name. ``about`` describes the scene in reports. If the name is
+    already registered, the new scene replaces the old scene. :class:`SceneError` is raised for an object that
+    is not a scene, for the name of a built-in scene, and for a name that is not an identifier. A scene in a
+    Python file needs no registration: commands accept the path of the file as a name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -117,13 +117,12 @@ def unregister(name: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all registered scenes, and of all built-in scenes with a fixed number of
-    coordinates."""
+    """Return the names of the scenes in GALLERY and of all registered scenes."""
     return (*GALLERY, *_REGISTERED)
 
 
 def every_name() -> tuple[str, ...]:
-    """Return the names of all built-in and registered scenes, also of those in LATTICES and SEMILINEAR.
+    """Return the names of all registered scenes and of all built-in scenes.
 
     >>> "dipole" in every_name() and "spin_lattice" in every_name()
     True
@@ -132,13 +131,13 @@ def every_name() -> tuple[str, ...]:
 
 
 def load(name: str) -> Problem:
-    """Return a gallery scene, a registered scene, or the variable ``scene`` of the Python file at the path
-    ``name``.
+    """Return the scene with the given name.
 
-    ``NAME+u`` is the scene NAME, extended by the momentum u conjugate to the time
-    (:mod:`codegen.scene.extended_phase_space`). Such a scene must be Hamiltonian or linear, and must depend
-    on time. ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have other values. :class:`SceneError`
-    is raised for a file that fails or defines no scene; the message contains the file and the line.
+    ``name`` is the name of a built-in scene, the name of a registered scene, or the path of a Python file
+    that defines the variable ``scene``. ``NAME+u`` is the scene NAME on the extended phase space
+    (:mod:`codegen.scene.extended_phase_space`). The scene NAME must then be Hamiltonian or linear, and must
+    depend on time. ``NAME[alpha=1/2,eps=3]`` is the scene NAME with the parameter values alpha = 1/2 and
+    eps = 3. :class:`SceneError` is raised if the file fails or defines no scene.
 
     >>> load("driven_spin[nu=3/5]").parameters["nu"].text()
     '3/5'
@@ -155,7 +154,7 @@ def load(name: str) -> Problem:
 
 
 def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
-    """Return a scene. The argument is a problem, the name of a scene, or the path of a Python file.
+    """Return ``scene`` itself if it is a problem. Otherwise return the scene with this name or path.
 
     >>> problem_of("dipole").name
     'dipole'
@@ -172,10 +171,10 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 
 
 def with_one_system(scene: Problem) -> Problem:
-    """Return ``scene`` if it describes a single system of ordinary differential equations.
+    """Return ``scene`` if it has a fixed number of coordinates.
 
-    Otherwise :class:`SceneError` is raised. The scene of a chain or lattice does not fix the number of sites.
-    The scene of a semilinear equation with a Fourier symbol does not fix the number of grid points.
+    :class:`SceneError` is raised for a chain or lattice, because the scene does not fix the number of sites.
+    It is also raised for a semilinear equation with any number of grid points.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -198,10 +197,10 @@ def with_one_system(scene: Problem) -> Problem:
 
 
 def with_values(name: str, parameters: Sequence[str]) -> str:
-    """Return the name of the scene ``name`` with other values of its parameters.
+    """Return the name of the scene ``name`` with new parameter values.
 
-    Each entry of ``parameters`` is a text ``NAME=VALUE``. :class:`SceneError` is raised for a text without a
-    value.
+    Each entry of ``parameters`` is a text ``NAME=VALUE``. :class:`SceneError` is raised for an entry without
+    an equals sign.
 
     >>> with_values("driven_spin", ["nu=3/5"]), with_values("dipole", [])
     ('driven_spin[nu=3/5]', 'dipole')
@@ -247,7 +246,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
     """Return the stiff variants of a scene of the gallery.
 
     A stiff variant has a very short time scale or is near a singularity. For a user's scene the result is
-    empty, even if this scene has the name of a scene of the gallery.
+    empty. A user's scene may have the name of a gallery scene, so the formulas are compared, too.
     """
     if scene.name not in GALLERY:
         return ()
@@ -293,8 +292,7 @@ def _named(scene: Problem, name: str, about: str = "") -> Problem:
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:
-    """Return FILE:LINE for the line of the user's file that raised an error, or FILE if the line is
-    unknown."""
+    """Return FILE:LINE, the place of an error in the user's file. If the line is unknown, return FILE."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     if isinstance(error, SyntaxError) and error.lineno is not None:
         lines.append(error.lineno)

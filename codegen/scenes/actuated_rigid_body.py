@@ -1,9 +1,10 @@
-"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3). The torques are signals.
+"""Actuated rigid body: three thrusters or wheels turn a body, on T*SO(3). Their torques are signals.
 
 The angular momentum mu in space satisfies mu' = g u. The vector u contains the torques in the body frame, and
-the attitude g rotates the torques to space. Each torque has a default formula in the time t. Emitted code
-uses this formula if the torque is not a run-time input. With u = 0 the scene is ``free_rigid_body_attitude``.
-F. Bullo and A. D. Lewis, Geometric Control of Mechanical Systems (Springer, 2005), treat such systems.
+the attitude g rotates the torques to space. Each torque has a default formula in the time t. If a torque is
+not a run-time input, emitted code uses the default formula. With u = 0 the scene is
+``free_rigid_body_attitude``. For actuated bodies see F. Bullo and A. D. Lewis, Geometric Control of
+Mechanical Systems (Springer, 2005).
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

@@ -1,16 +1,15 @@
-"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, by the action of affine maps.
+"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, as a field of affine maps.
 
-The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. The group consists of the maps
-u -> exp(t L) u + c. The element f(u) of its algebra has the coordinates (1, N(u)). Lie-Euler is the
-exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. The other Lie group
-methods are exponential integrators, too. L is eps times the second difference quotient on points with the
-spacing 1/7, with u = 0 at both ends. An element (A, c) of the algebra consists of a matrix A and a
-translation c. The bracket of (A1, c1) and (A2, c2) has the translation A1 c2 - A2 c1. The thesis prints this
-translation with an additional term c1.
+The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. The nonlinear term is
+N(u) = u - u^3. L is eps times the second difference quotient. The points have the spacing 1/7, and u = 0 at
+both ends. The group consists of the maps u -> exp(t L) u + c. An element (A, c) of its Lie algebra consists
+of a multiple A of L and a translation c. The field is (L, N(u)), with the coordinates (1, N(u)). Lie-Euler is
+the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. All other Lie group
+methods are exponential integrators, too. The bracket of (A1, c1) and (A2, c2) has the translation
+A1 c2 - A2 c1. The thesis prints this translation with an additional term c1.
 
-Solutions grow without bound if diffusion is integrated backwards in time. A method with negative
-coefficients, such as ``cg3``, integrates backwards in a part of each step. If the steps of such a method are
-long, no digit of its result is correct.
+A method with negative coefficients, such as ``cg3``, integrates diffusion backwards in time in a part of each
+step. Backward diffusion amplifies all errors. With long steps, no digit of the result is correct.
 """
 
 from sympy import Matrix, Rational, symbols

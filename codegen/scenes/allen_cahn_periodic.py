@@ -1,10 +1,10 @@
 """The Allen-Cahn equation u_t = eps u_xx + u - u^3 on a periodic interval of length 2 pi.
 
 The equation is that of S. M. Allen and J. W. Cahn (Acta Metallurgica 27 (1979) 1085-1095) in one dimension.
-The solution forms plateaus near 1 and -1. The boundaries of the plateaus move slowly. The operator is L = eps
-d^2/dx^2, and the nonlinear term is N(u) = u - u^3. The affine maps u -> exp(t L) u + c act on functions, as
-in section 2.2.2 of H. Marthinsen's thesis. L is given by its Fourier symbol, the factor by which L multiplies
-exp(i k x).
+The solution forms plateaus near 1 and -1. The boundaries of the plateaus move slowly. The linear operator is
+L = eps d^2/dx^2. It is given by its Fourier symbol -eps k^2, because L exp(i k x) = -eps k^2 exp(i k x). The
+nonlinear term is N(u) = u - u^3. The group consists of the affine maps u -> exp(t L) u + c of functions u (H.
+Marthinsen's thesis, section 2.2.2).
 """
 
 from sympy import Rational, cos, pi, sin, symbols

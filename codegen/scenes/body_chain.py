@@ -1,12 +1,11 @@
-"""Chain of rigid bodies with elastic ball joints that hangs under gravity, on T*SE(3).
+"""Chain of rigid bodies with elastic ball joints, on T*SE(3). The chain hangs under gravity.
 
 Each body has joints at x + R b and x - R b, where x is its centre of mass, R its rotation matrix, and b a
 constant vector. A stiff spring joins the point x - R b of a body to the point x' + R' b of the next body. The
 spring replaces the constraint of a ball joint (R. Grossman, P. S. Krishnaprasad and J. E. Marsden 1988, see
-``coupled_rigid_bodies``). The first body hangs at the origin, as if it were joined to a fixed body with x = b
-and R = 1. The last body has a free end: beyond the chain, a fictitious next body follows the last body, so
-that the spring between them has length zero and exerts no force. The three moments of inertia of a body
-differ.
+``coupled_rigid_bodies``). The first body is joined to a fixed body with x = b and R = 1, so it hangs from the
+origin. The last body is joined to a fictitious next body. The spring of this joint always has length zero, so
+the last body has a free end.
 """
 
 from sympy import Matrix, Rational, eye

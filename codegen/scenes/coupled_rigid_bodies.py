@@ -1,14 +1,15 @@
-"""Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)), with their centre of mass at rest.
+"""Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)).
 
-The joint is at the point d_k of body k, on a principal axis of the body. Body k has the inertia J_k, the
-attitude g_k, and the angular momentum P_k in the body frame. The two bodies have the reduced mass eps.
-Without a joint, the kinetic energy of the rotations is sum_k P_k.J_k^-1 P_k/2, and the points d_1 and d_2
-separate with a velocity b. The joint reduces the energy by b.S^-1 b/2, where S is the inverse of the
-effective mass at the joint:
+The centre of mass of both bodies is at rest. The joint is at the point d_k of body k, and d_k lies on a
+principal axis of this body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k in the
+body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
 
-    S = 1/eps + sum_k g_k C_k g_k^T,    C_k = hat(d_k)^T J_k^-1 hat(d_k).
+    H = (sum_k P_k.w_k - b.S^-1 b)/2,    w_k = J_k^-1 P_k,    b = g_2 (w_2 x d_2) - g_1 (w_1 x d_1),
+    S = 1/eps + sum_k g_k C_k g_k^T,     C_k = hat(d_k)^T J_k^-1 hat(d_k).
 
-Here hat(d) is the matrix of v -> d x v. Energy and total angular momentum are conserved.
+Here hat(d) is the matrix of v -> d x v. Without the joint, the points d_1 and d_2 would separate with the
+velocity b. The matrix S is the inverse of the effective mass at the joint. The energy and the total angular
+momentum are conserved.
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378.
@@ -31,13 +32,13 @@ d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
-    """Return the matrix hat(d)^T J^-1 hat(d) of a body with the inertia J and the joint at the point d."""
+    """Return the matrix hat(d)^T J^-1 hat(d) of a body with the inertia J. Its joint is at the point d."""
     hat = Matrix([[0, -d[2], d[1]], [d[2], 0, -d[0]], [-d[1], d[0], 0]])
     return hat.T * J.inv() * hat
 
 
-# All vectors are in the frame of the first body. Q maps vectors from the frame of the second body to this
-# frame.
+# The vector b and the matrix S are in the frame of the first body. Q maps vectors from the frame of the
+# second body to the frame of the first body.
 P1, P2, Q = g1.T * mu1, g2.T * mu2, g1.T * g2
 w1, w2 = J1.inv() * P1, J2.inv() * P2
 b = Q * w2.cross(d2) - w1.cross(d1)

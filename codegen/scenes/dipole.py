@@ -1,15 +1,15 @@
 """Dipole on a stick, on T*SO(3): a pendulum with a charged dipole at its end, near a fixed charge.
 
 The scene is from section 3.6 of H. Marthinsen's thesis. The thesis prints the gravity term of the Hamiltonian
-with a plus sign, but Fig. 3.3 of the thesis agrees with the minus sign, which this scene uses. In Fig. 3.3,
-with h = 0.01 on the interval (0, 1000), the energy error is about 1e-3 for vcg:midpoint and 1e-7 for
-vrkmk(2):gauss2. The minus sign gives the errors 1.0e-3 and 1.4e-7. The plus sign gives 1.0e-4 and 1.3e-9.
+with a plus sign. This scene uses the minus sign, because only the minus sign agrees with Fig. 3.3 of the
+thesis. The figure shows energy errors of about 1e-3 for vcg:midpoint and 1e-7 for vrkmk(2):gauss2, with
+h = 0.01 on the interval (0, 1000). With the minus sign these errors are 1.0e-3 and 1.4e-7. With the plus
+sign they are 1.0e-4 and 1.3e-9.
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. On R^n, a VRKMK method is a partitioned
-Runge-Kutta method. Let p be the order of this partitioned method. By Theorem 3.5.3, VRKMK(r) has order p if
-r >= p - 2. For even r >= 2 the condition r >= p - 3 suffices, because the next power r + 1 of ad has the
-coefficient zero: the odd Bernoulli numbers after the first vanish. Thus r = 2 suffices for order 5, and r = 4
-for order 7. If r is smaller, the order of VRKMK(r) is r + 3 for even r >= 2, and r + 2 for other r.
+Runge-Kutta method. Let p be the order of this partitioned method. By Theorem 3.5.3, the order of VRKMK(r) is
+the smaller of p and r + 2. For even r >= 2, the order is the smaller of p and r + 3, because the power r + 1
+of ad has the coefficient zero. For example, r = 2 suffices for order 5, and r = 4 suffices for order 7.
 """
 
 import math
@@ -115,10 +115,10 @@ def stiff_variants() -> list[StiffVariant]:
 
 
 def _passing(gap: Fraction) -> StiffVariant:
-    # The distance of the charges of the dipole from the pivot is sqrt(1 + a^2). It is rounded to 15 decimals.
+    # Each charge of the dipole is at the distance sqrt(1 + a^2) from the pivot, here rounded to 15 decimals.
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the fixed charge at a distance of {float(gap):g}"
-    # At the distance ``gap``, the acceleration is about 1/gap^2. A motion with this acceleration covers a
-    # distance of about ``gap`` in the time gap^(3/2), which is therefore the time scale.
+    # At the distance ``gap``, the acceleration is about 1/gap^2. With this acceleration, a charge moves by
+    # about ``gap`` in the time gap^(3/2). This time is the time scale.
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

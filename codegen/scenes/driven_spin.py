@@ -1,9 +1,9 @@
 """Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
 
 The equation is m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b). The equation
-depends on time and is dissipative, and the generator w has a component along m. For these reasons no term of
-a method vanishes in this scene, so an error in any term is visible. ``stiff_driven_spin`` has the same
-equation with fast rates.
+depends on time and is dissipative, and the generator w has a component along m. Therefore no term of a method
+vanishes in this scene, and an error in a term changes the result. ``stiff_driven_spin`` has the same equation
+with fast rates.
 
 L. Landau and E. Lifshitz, On the theory of the dispersion of magnetic permeability in ferromagnetic bodies,
 Phys. Z. Sowjetunion 8 (1935), 153-169.
@@ -17,7 +17,7 @@ from codegen.scene.problem import Problem
 
 
 def driven_spin(title: str, anisotropy: Expr, damping: Expr, drive: Expr, end: Expr) -> Problem:
-    """Return the scene on the time interval from 0 to ``end``.
+    """Return the scene of a driven spin on the time interval from 0 to ``end``.
 
     ``anisotropy``, ``damping`` and ``drive`` are the default values of the parameters K, alpha and a.
     """

@@ -1,11 +1,11 @@
 """Duffing's equation on the plane, as a field of the group of translations.
 
 The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). Three
-scenes contain these equations, with three different groups. The group determines which part of the equation a
-Lie group method keeps constant in a step. In this scene the whole field is kept constant, so every family
-reduces to its classical method. In ``duffing_sl2`` the stiffness of the spring is kept constant, and in
-``duffing_se2`` the cubic part of the force is kept constant. The errors of Lie-Euler with 50 steps to t = 2
-are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
+scenes contain Duffing's equation, each with its own group. The group determines which part of the equation
+Lie-Euler keeps constant in a step. In ``duffing`` this part is the whole field, in ``duffing_sl2`` the
+stiffness of the spring, and in ``duffing_se2`` the cubic part of the force. Translations commute, so in
+``duffing`` every Lie group method reduces to its classical method. The errors of Lie-Euler with 50 steps to
+t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
 """
 
 from collections.abc import Sequence
@@ -23,9 +23,10 @@ field = Matrix([y, -x - x**3])
 
 
 def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
-    """Return the scene of Duffing's equation z' = f(z).z for a group that acts on the plane.
+    """Return the scene of Duffing's equation for a group that acts on the plane.
 
-    ``frame`` describes the group in the title of the scene.
+    ``f`` contains the coordinates of the field in the Lie algebra. ``frame`` describes the group in the title
+    of the scene.
     """
     return FieldScene(
         title=f"Duffing's equation, {frame}",

@@ -1,9 +1,9 @@
-"""Duffing's equation as a field of SE(2), the rigid motions of the plane: a step keeps the cubic force
-constant.
+"""Duffing's equation as a field of SE(2): Lie-Euler keeps the cubic force constant in a step.
 
-The field is f = E_1 - x^3 E_2 (H. Marthinsen's thesis, section 2.2). Here E_1 = y d/dx - x d/dy generates
-rotations, and E_2 = d/dy generates translations. The linear part of the equation is solved exactly. The scene
-``duffing`` explains the role of the group.
+The group SE(2) consists of the rigid motions of the plane. The field is f = E_1 - x^3 E_2 (H. Marthinsen's
+thesis, section 2.2). The vector field E_1 = (y, -x) generates rotations, and E_2 = (0, 1) generates
+translations. For a constant force x^3, the flow is a rotation about a point of the x-axis. The scene
+``duffing`` compares the three groups.
 """
 
 from codegen.groups import SE2, Motion

@@ -1,10 +1,11 @@
-"""Fast heavy top: a symmetric top with its inertia fixed in the body, spinning at 150 rad/s, on T*SO(3).
+"""Fast heavy top, on T*SO(3): a symmetric top with a spin of 150 rad/s. Its inertia is fixed in the body.
 
 The scene is a benchmark of multibody dynamics (Brüls and Cardona 2010). The equations are R' = R hat(W) and
-I W' = (I W) x W + X x R^T (0, 0, -m g). R is the attitude, W the angular velocity in the body frame, and X
-the centre of mass in the body frame. I is the inertia about the fixed point. The angular momentum in space is
-mu = R I W, and its derivative is the torque: mu' = (R X) x (0, 0, -m g). The energy and the angular momenta
-about the vertical and about X are conserved.
+I W' = (I W) x W + X x R^T (0, 0, -m g). R is the attitude, and hat(W) is the matrix of v -> W x v. In the
+body frame, W is the angular velocity, X the centre of mass, and I the inertia about the fixed point. The mass
+is m, and the acceleration of gravity is g. The angular momentum in space is mu = R I W, and its derivative is
+the torque: mu' = (R X) x (0, 0, -m g). The energy is conserved. The angular momenta about the vertical and
+about the axis X are conserved, too.
 """
 
 from sympy import Matrix, Rational, diag, eye
@@ -40,7 +41,7 @@ scene = HamiltonianScene(
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return heavy tops with inertia ratios of 1e3 and 1e6 that spin about their axis of smallest inertia."""
+    """Return thin heavy tops. The largest moment of inertia is 1e3 or 1e6 times the smallest moment."""
     return [_thin_top(ratio) for ratio in (10**3, 10**6)]
 
 

@@ -1,13 +1,17 @@
-"""Four-level quantum system with a chirped pulse. U(4) acts on the amplitudes, stored as real numbers.
+"""Four-level quantum system with a chirped pulse: U(4) acts on the complex amplitudes.
 
-The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The levels form an anharmonic
-ladder, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the Cooper pair box,
-Phys. Rev. A 76 (2007), 042319). The Hamiltonian is H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2)
-sin^2(nu t) (L + L^T). Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the
-diagonal. The parameter a is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest
-detuning. The pulse ends near nu t = pi. The detuning delta cos(nu t) passes through the resonances of the
-ladder. The state consists of the 8 real numbers (Re psi, Im psi). The generator -i H depends only on time, so
-the differential equation is linear. The entries of H are large compared with the rate nu of the pulse.
+The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The distances of neighbouring
+levels differ, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the Cooper pair
+box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
+
+    H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2) sin^2(nu t) (L + L^T).
+
+Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the diagonal. The parameter a
+is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest detuning. The pulse ends
+near nu t = pi. During the pulse, the detuning delta cos(nu t) passes through the resonances of the system.
+
+The state consists of the 8 real numbers (Re psi, Im psi). The generator -i H depends on time, but not on the
+state, so the equation is linear. The entries of H are large compared with the rate nu of the pulse.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, sin, sqrt
@@ -26,8 +30,8 @@ H += rabi / 2 * sin(nu * t) ** 2 * (L + L.T)
 y = Matrix([Symbol(f"{part}{k}", real=True) for part in ("re", "im") for k in range(LEVELS)])
 u, v = y[:LEVELS, :], y[LEVELS:, :]
 
-# The coordinates of -i H in the Lie algebra. H is real, so each entry of -i H above the diagonal has the real
-# part 0 and the imaginary part -H[j, k]. The imaginary parts of the diagonal come last.
+# The coordinates of -i H in the Lie algebra: the real and imaginary parts of the entries above the diagonal,
+# and then the imaginary parts of the diagonal. All real parts are 0, because H is real.
 pairs = [(j, k) for j in range(LEVELS) for k in range(j + 1, LEVELS)]
 f = [x for j, k in pairs for x in (0, -H[j, k])] + [-H[j, j] for j in range(LEVELS)]
 

@@ -1,10 +1,10 @@
 """Free rigid body on S^3 x R^3. The attitude is a unit quaternion, and the momentum is a vector in R^3.
 
 The equations are q' = q (0, W)/2 and P' = P x W with W = I^-1 P (Hairer and Vilmart 2006). The unit
-quaternion q, real part first, rotates vectors from the body frame to space, and q (0, W) is a product of
-quaternions. I is the inertia, and W and P are the angular velocity and momentum in the body frame. The
-moments of inertia are the same as in ``free_rigid_body_product``. The attitude has four coordinates in place
-of nine.
+quaternion q rotates vectors from the body frame to space. The real part of a quaternion is its first
+coordinate. I is the inertia, and W and P are the angular velocity and momentum in the body frame. The moments
+of inertia are the same as in ``free_rigid_body_product``. Here the attitude has four coordinates, and in
+``free_rigid_body_product`` it has nine.
 """
 
 from sympy import Matrix, Rational, diag
@@ -19,7 +19,7 @@ P0 = Matrix([Rational(9, 5), Rational(2, 5), Rational(-9, 10)])
 W = I.inv() * P
 axis = Matrix(q[1:])
 twice = 2 * axis.cross(W)
-w = W + q[0] * twice + axis.cross(twice)  # angular velocity in space: q W q^c
+w = W + q[0] * twice + axis.cross(twice)  # angular velocity in space: q W q^-1
 
 scene = FieldScene(
     title="Free rigid body with a quaternion, S^3 x R^3 (Hairer and Vilmart 2006)",

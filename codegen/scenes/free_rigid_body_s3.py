@@ -1,10 +1,12 @@
-"""Free rigid body: its attitude as a unit quaternion, on S^3 acting on itself.
+"""Free rigid body: the attitude is a unit quaternion, and S^3 acts on itself.
 
 The equation is q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2 (H. Marthinsen's thesis, section
-2.6). E is the Euler-Rodrigues map from unit quaternions to rotation matrices, I the inertia, and m0 the
-angular momentum in space, which is constant. The moments of inertia differ widely, so the energy varies
-strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1), so the energy is 31.125. The
-thesis prints I m0 = (1, 1/2, -1), which gives the energy 0.501.
+2.6). Here q^c is the conjugate of q, and E maps a unit quaternion to its rotation matrix. I is the inertia.
+The angular momentum m0 in space is constant. The moments of inertia are 1, 5 and 60. They differ widely, so
+the energy changes strongly with the attitude q.
+
+The initial angular velocity I^-1 m0 is (1, 1/2, -1), and the energy is 31.125. The thesis prints
+I m0 = (1, 1/2, -1), but this value gives the energy 0.501.
 """
 
 from sympy import Expr, Matrix, Rational, diag
@@ -23,7 +25,7 @@ axis = Matrix(q[1:])
 def turned(real: Expr, v: Matrix) -> Matrix:
     """Return the vector v rotated by a unit quaternion.
 
-    The real part of the quaternion is ``real``. Its imaginary part is that of the attitude q.
+    The quaternion has the real part ``real``, and its imaginary part is the imaginary part of the attitude.
     """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)

@@ -1,22 +1,22 @@
-"""Geometrically exact rod without forces at its ends: rigid cross sections, a chain on T*SE(3).
+"""Geometrically exact rod with free ends: a chain of rigid cross sections, on T*SE(3).
 
 The model is the rod of J. C. Simo (Comput. Methods Appl. Mech. Engrg. 49 (1985) 55-70) with the strains of
 shear, extension, bending and torsion. A site is a cross section with the frame R = (d1, d2, d3) and the
-centre x; d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the mass of each
-piece is concentrated in its cross section. As in P. Betsch and P. Steinmann (Int. J. Numer. Methods Eng. 54
-(2002) 1775-1788), the strains between two sections are formed from the mean directors (d_a + d_a')/2:
+centre x. The director d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the
+mass of each piece is concentrated in its cross section. P. Betsch and P. Steinmann (Int. J. Numer. Methods
+Eng. 54 (2002) 1775-1788) form the strains from the mean directors (d_a + d_a')/2 of two neighbouring
+sections. The strains Gamma_a and the energy V of these sections are
 
     Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
 
-V is the energy of two neighbouring sections. A prime denotes the second section, and delta_a3 is 1 for a = 3
-and 0 otherwise. S = (GA, GA, EA) are the stiffnesses of shear and extension, and K = (EI, EI, GJ) are the
-stiffnesses of bending and torsion. The numbers D_a are D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2. If the rotation
-theta between the sections is small, the second sum is therefore sum_a K_a theta_a^2. V is a polynomial. It
-does not change if both sections move by the same rigid motion, so the total momentum is constant.
+A prime denotes the second section, and delta_a3 is the Kronecker delta. S = (GA, GA, EA) contains the
+stiffnesses of shear and extension. The numbers D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2 follow from the
+stiffnesses K = (EI, EI, GJ) of bending and torsion: for a small rotation theta between the sections, the
+second sum is sum_a K_a theta_a^2. V is a polynomial. A rigid motion of both sections does not change V, so
+the total momentum is constant.
 
-In the code, energies and momenta are divided by ds. This does not change the equations of motion. After the
-division, V is the only energy that depends on ds.
+The code divides all energies and momenta by ds. This does not change the equations of motion.
 """
 
 from collections.abc import Mapping, Sequence
@@ -51,23 +51,22 @@ stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True)
 bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
 
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
-"""A map from an end of the rod to the coordinates of a cross section beyond this end.
+"""Coordinates of cross sections beyond the ends of the rod.
 
 The key (-1,) denotes the end at the first section, and (1,) denotes the end at the last section.
 """
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Cross sections beyond the free ends of a rod. Such a section has the matrix R of the end of the rod, and
-its position is chosen so that all strains vanish for any R. It exerts no force, so rounding errors in R do
-not change the total momentum."""
+"""The cross sections beyond the two free ends of a rod. Each cross section has the matrix R of its end of the
+rod. Its position makes all strains zero, even if R has rounding errors. Free ends therefore feel no force."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
-    """Return the scene of a rod. If ``gravity`` is given, gravity acts in the direction of -e1.
+    """Return the scene of a rod. The acceleration ``gravity`` acts in the direction of -e1.
 
-    If ``ends`` contains an end of the rod, a bond joins this end to the given cross section. Ends that are
-    not in ``ends`` are free.
+    ``ends`` contains cross sections beyond the ends of the rod. A bond joins each of these sections to its
+    end of the rod. An end without such a section is free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
@@ -89,7 +88,7 @@ def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str 
 def straight(number: int, spacing: float) -> list[list[float]]:
     """Return the states of the sections of a straight rod at rest along e3.
 
-    The sections have the distance ``spacing``. The first section has this distance from the origin.
+    The distance between neighbouring sections is ``spacing``. The first section is at ``spacing`` e3.
     """
     frame = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     return [[*frame, 0.0, 0.0, (i + 1) * spacing, *[0.0] * 6] for i in range(number)]
