@@ -34,25 +34,26 @@ class Spectral(ArrayModule, ABC):
     """An emitted module for a semilinear equation in x, for grids with any even number of points."""
 
     def points(self, n: int, **parameters: object) -> Floats:
-        """Return the coordinates x of a grid of n equally spaced points in one period, beginning at 0."""
+        """Return the coordinates x of n equally spaced points in one period. The first point is x = 0."""
         import numpy as np
 
         n = _even(count(n, "n"))
         return np.arange(n) * self._period(self._values(parameters)) / n
 
     def start(self, n: int, **parameters: object) -> Floats:
-        """Return the initial values that the scene defines, at the n points of a grid."""
+        """Return the initial values of the scene at n equally spaced points in one period."""
         return self._initial(self.points(n, **parameters), self._values(parameters))
 
     def run(self, u: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> SpectralRun:
         """Return the values of the solution after ``steps`` steps of size h from time t.
 
-        ``u`` contains the values at time t at an even number of equally spaced points. If a step fails, no
-        error is raised. The result then contains the status, and the values after the last completed step.
+        ``u`` contains the values at time t at an even number of equally spaced points. If a step fails, the
+        run ends without an exception. The result then contains the status of the failed step, and the values
+        after the last completed step.
 
-        ValueError is raised for an array with more than one axis, for an odd number of points, and for values
-        that are not finite. TypeError is raised for values that are not real numbers, and for unknown
-        parameters.
+        Exceptions are raised for wrong arguments. ValueError is raised for an array with more than one axis,
+        for an odd number of points, and for values that are not finite. TypeError is raised for values that
+        are not real numbers, and for unknown parameters.
         """
         import numpy as np
 
@@ -83,7 +84,8 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Make steps from the values ``u``. ``moment`` is (t, h, steps), where t is the start time.
+        """Make steps from the values ``u``. ``moment`` contains the start time, the step size and
+        the number of steps.
 
         Return the last values of the solution, the status, and the number of completed steps.
         """
@@ -180,7 +182,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array. The C function ``name`` returns the length needed for n points."""
+        """Return an uninitialised array for n points. The C function ``name`` computes its length."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

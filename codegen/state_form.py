@@ -44,7 +44,7 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values``, which are one flat state or a list of flat states, in the stored form."""
+        """Return ``values`` in the stored form. ``values`` is one flat state or a list of flat states."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -61,7 +61,7 @@ class StateForm:
         return tuple(parts) if self.is_tuple else parts[0]
 
     def matrix(self, rows: Sequence[Sequence[float]]) -> Any:
-        """Return a matrix: a NumPy array if any part of the state is a NumPy array, else a list of rows."""
+        """Return ``rows`` as a NumPy array if a part of the state is a NumPy array, else as a list."""
         if not any(self.arrays):
             return list(rows)
         import numpy as np
@@ -70,10 +70,11 @@ class StateForm:
 
 
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
-    """Return the form of a state, and its numbers as a flat list.
+    """Return the form of a state, and the flat list of the numbers in the state.
 
-    The state must have ``size`` real numbers. If the state is a tuple, each entry must have the size of a
-    field in ``fields``, or the total size of several consecutive fields. Otherwise ValueError is raised.
+    ValueError is raised if the state does not consist of ``size`` real numbers. A tuple is also compared with
+    ``fields``: each entry must fill one field or several consecutive fields. If there are fewer than two
+    fields, the sizes of the entries are not checked.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
@@ -99,11 +100,10 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if a caller passed a state as a tuple, and an entry of this tuple has a wrong size.
+    """Raise ValueError if an entry of a tuple does not fill one field or several consecutive fields.
 
-    ``sizes`` are the sizes of the entries. Each must equal the size of a field, or the total size of several
-    consecutive fields. If the state has only one field, the entries may have any size, because they may be
-    the rows of a matrix.
+    ``sizes`` are the sizes of the entries. If there are fewer than two fields, every size is permitted: the
+    entries may be the rows of a matrix. The callers check the sum of the sizes.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -122,7 +122,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the names and sizes of the fields as the end of a message, or '' if they are unknown."""
+    """Return the end of an error message: the names and sizes of the fields. Without fields it is empty."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
@@ -133,7 +133,7 @@ class Batch:
     states: tuple[State, ...]
 
     def joined(self, results: Sequence[Any]) -> Any:
-        """Return the results for the states as arrays whose first index is the index of the state."""
+        """Return all results as an array or a tuple of arrays. The first index numbers the states."""
         import numpy as np
 
         if isinstance(results[0], tuple):
@@ -142,10 +142,10 @@ class Batch:
 
 
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
-    """Return the batch that ``state`` contains, or None if ``state`` is not a batch.
+    """Return the batch in ``state``: an array with a state in each row, or a tuple of such arrays.
 
-    Each state of a batch must have ``size`` numbers. ValueError is raised if ``state`` is a tuple of arrays
-    whose sizes do not match ``fields``.
+    Each state of a batch has ``size`` numbers. If ``state`` is not a batch, None is returned. If the arrays
+    of a tuple do not match ``fields``, ValueError is raised.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -160,7 +160,8 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # Rows of different lengths, or complex numbers, are not a batch.
+    # NumPy raises an error if rows have different lengths or entries are complex. In these cases the state is
+    # not a batch.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])

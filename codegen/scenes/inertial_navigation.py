@@ -1,15 +1,15 @@
 """Inertial navigation on SE_2(3): attitude, velocity and position from a gyroscope and an accelerometer.
 
-The equations are R' = R hat(w), v' = R a + g and p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on
-Automatic Control 62 (2017), 1797-1812). The angular velocity w and the acceleration a are measured in the
-frame of the vehicle. The six components of w and a are input signals. The default formulas of the signals
-describe a classical coning motion on an elliptic path. In this motion R is a rotation by the angle alpha
-about an axis, and the axis rotates in the horizontal plane with the rate nu. The position p moves on an
-ellipse with the rate c. Coning motion is described in P. G. Savage, Strapdown inertial navigation integration
-algorithm design, Journal of Guidance, Control, and Dynamics 21 (1998), 19-28.
+The state consists of the attitude R, the velocity v and the position p. The equations are R' = R hat(w),
+v' = R a + g and p' = v, where hat(w) is the skew matrix of w, and g is gravity (A. Barrau and S. Bonnabel,
+IEEE Transactions on Automatic Control 62 (2017), 1797-1812). The angular velocity w and the acceleration a
+are measured in the frame of the vehicle. The six components of w and a are input signals.
 
-The exact motion is known in closed form. The drift of a method is the distance of its solution from the exact
-motion.
+By default the signals belong to a coning motion (P. G. Savage, Strapdown inertial navigation integration
+algorithm design, Journal of Guidance, Control, and Dynamics 21 (1998), 19-28). R is a rotation by the angle
+alpha about a horizontal axis, and this axis turns in the horizontal plane with the rate nu. The position p
+moves on an ellipse with the rate c. The exact motion is known in closed form. The drift of a method is the
+distance of its solution from the exact motion.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diff, eye, sin
@@ -21,8 +21,8 @@ t = Symbol("t")
 sin_alpha, cos_alpha, nu, c = Rational(5, 13), Rational(12, 13), 4, Rational(1, 2)
 gravity = Matrix([0, 0, -1])
 
-# The exact motion: ``attitude`` and ``path`` are R and p as functions of the time t. The matrix ``axis`` maps
-# a vector v to u x v, where u is the unit vector of the axis of the rotation.
+# The exact motion at the time t: ``attitude`` is R, and ``path`` is p. The matrix ``axis`` is hat(u), where
+# the unit vector u is the axis of the rotation R.
 axis = Matrix([[0, 0, sin(nu * t)], [0, 0, -cos(nu * t)], [-sin(nu * t), cos(nu * t), 0]])
 attitude = eye(3) + sin_alpha * axis + (1 - cos_alpha) * axis**2
 path = Matrix([cos(c * t), sin(c * t), sin(c * t) / 4])

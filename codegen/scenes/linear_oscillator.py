@@ -3,8 +3,7 @@
 The Hamiltonian is H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis,
 paper 3, Table 4.1). In the group R^4 brackets vanish and exponentials are translations. Therefore RKMK, CG
 and CF methods are Runge-Kutta methods, and variational methods are symplectic partitioned Runge-Kutta
-methods. The scene tests stage times: the field depends on time, so a wrong stage time lowers the measured
-order.
+methods. The field depends on time, so a wrong stage time lowers the measured order of a method.
 """
 
 from dataclasses import replace
@@ -40,7 +39,7 @@ scene = HamiltonianScene(
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return oscillators with the frequencies 1e3 and 1e6. Both turn by RADIANS during the time span."""
+    """Return oscillators with the frequencies 1e3 and 1e6. Each turns by RADIANS in its time span."""
     return [_oscillator(omega) for omega in (10**3, 10**6)]
 
 

@@ -46,7 +46,7 @@ def neighbours_of(file: Path) -> Iterator[None]:
     hidden = _taken(names)
     finder, cached = Neighbours(folder, names), sys.dont_write_bytecode
     sys.meta_path.insert(0, finder)
-    # The folder belongs to the user, so Python must not write bytecode there.
+    # Python must not write bytecode into the user's folder.
     sys.dont_write_bytecode = True
     invalidate_caches()
     try:

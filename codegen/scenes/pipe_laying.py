@@ -1,10 +1,11 @@
 """Pipe-laying: a geometrically exact rod under gravity, with one clamped end and one end on a moving vessel.
 
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
-vessel. As in the scene ``free_rod``, the rod is a chain of N cross sections at the distance ds. The chain
-lies between a clamped section and a section that is fixed to the vessel. The section of the vessel moves up
-and down, and pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` is the distance
-between the clamped section and the section of the vessel. It must be equal to (N + 1) ds.
+vessel. As in the scene ``free_rod``, the rod is a chain of N cross sections, and neighbouring sections have
+the distance ds. Before the chain there is a clamped section. After the chain there is a section on the
+vessel. The vessel moves up and down, and pitches about the axis e2. The pitch angle is a sin(w t), where a
+and w are parameters. The parameter ``length`` is the distance between the clamped section and the section on
+the vessel at time 0. It must be equal to (N + 1) ds.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

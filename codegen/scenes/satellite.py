@@ -1,11 +1,13 @@
 """Satellite with gravity gradient on a circular orbit, T*SO(3). The momenta of its wheels are input signals.
 
-The matrix g rotates vectors from the body frame to space, and mu is the total angular momentum in space,
-including the wheels. The momentum of the wheels is h, with the components h0, h1, h2 along the axes of the
-body. The angular velocity w and the inertia tensor J, in the frame of the body, satisfy J w = g^T mu - h. The
-motors of the wheels exert internal torques only, so h changes w but not mu. The gravity gradient exerts the
-torque 3 n^2 r x J r. The unit vector r points from the Earth to the satellite and turns with the rate n (P.
-C. Hughes, Spacecraft Attitude Dynamics, 1986, chapters 6 and 8). The unit of time is 1/n.
+The matrix g rotates vectors from the body frame to space. The total angular momentum mu, in space, includes
+the wheels. The angular momentum of the wheels, in the body frame, is h = (h0, h1, h2). The angular velocity w
+and the inertia tensor J, in the body frame, satisfy J w = g^T mu - h. The motors of the wheels exert internal
+torques only, so h changes w but not mu.
+
+Let r be the unit vector from the Earth to the satellite, and let n be the rate of its rotation. The torque of
+the gravity gradient is 3 n^2 r x J r (P. C. Hughes, Spacecraft Attitude Dynamics, 1986, chapters 6 and 8).
+The unit of time is 1/n.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

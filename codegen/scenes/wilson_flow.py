@@ -1,12 +1,15 @@
 """Wilson flow of a plaquette, the smallest lattice gauge field: SU(3)^4 acts on four link matrices.
 
-The equation is V' = -g0^2 (dS(V)) V. The Wilson action S is given by g0^2 S = 2 Re tr(1 - P), where
-P = V0 V1 V2^H V3^H, and V^H is the conjugate transpose of V (M. Luescher, Properties and uses of the Wilson
-flow in lattice QCD, JHEP 08 (2010) 071, section 2). The derivative dS(V) is an element of the Lie algebra.
-The tableau ``luescher3`` is the Runge-Kutta method of appendix C of this article. Let X be the product of the
-four links around the plaquette, beginning with a link V. The generator of V is the traceless anti-Hermitian
-part of -X. S decreases to 0. The initial links are random with a fixed seed. A link V is stored as a real
-6 x 3 matrix: Re V above Im V.
+A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
+constant and S is the Wilson action. The plaquette P = V0 V1 V2^H V3^H gives g0^2 S = 2 Re tr(1 - P). Here V^H
+is the conjugate transpose of V. The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is the
+generator of the link. The generator is equal to the traceless anti-Hermitian part of -X. Here X is the
+product of the four links around the plaquette, beginning with V. S decreases to 0.
+
+The initial links are random with a fixed seed. A link V is stored as a real 6 x 3 matrix: Re V above Im V.
+
+Source: M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2. The
+tableau ``luescher3`` is the Runge-Kutta method of appendix C of this article.
 """
 
 from random import Random
@@ -20,9 +23,9 @@ draw = Random(1006)
 
 
 def full(c: Matrix) -> Matrix:
-    """Return the real 6 x 6 matrix of a complex 3 x 3 matrix V; ``c`` is Re V above Im V.
+    """Return the real 6 x 6 matrix of a complex 3 x 3 matrix V.
 
-    The transpose of the result is the real matrix of V^H.
+    ``c`` is the 6 x 3 matrix of V: Re V above Im V. The transpose of the result is the real matrix of V^H.
     """
     return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
 
@@ -30,8 +33,8 @@ def full(c: Matrix) -> Matrix:
 def start() -> Matrix:
     """Return a random link matrix in SU(3), stored as a real 6 x 3 matrix.
 
-    The link matrix is a product of three random matrices. Each of these acts on two of the three coordinates
-    by an element of SU(2).
+    The link matrix is a product of three random matrices. Each factor is an element of SU(2) that acts on
+    two of the three coordinates.
     """
     link = full(Matrix.vstack(eye(3), Matrix.zeros(3, 3)))
     for j, k in ((0, 1), (0, 2), (1, 2)):
@@ -46,7 +49,7 @@ def start() -> Matrix:
 def generator(loop: Matrix) -> list[Expr]:
     """Return the coordinates in su(3) of the traceless anti-Hermitian part of -X.
 
-    ``loop`` is the 6 x 3 matrix of X: Re X above Im X.
+    ``loop`` contains the complex 3 x 3 matrix X as a real 6 x 3 matrix: Re X above Im X.
     """
     X, Y = loop[:3, :], loop[3:, :]
     pairs = [(0, 1), (0, 2), (1, 2)]

@@ -1,14 +1,17 @@
 """Wilson flow of a lattice gauge field: links in SU(3) between the sites of a periodic lattice.
 
-The equation is V' = -g0^2 (dS(V)) V with the Wilson action S (M. Luescher, Properties and uses of the Wilson
-flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). The derivative dS(V) is an element of
-the Lie algebra. Each site has one link for each axis. The link leads to the next site along this axis. A link
-V is stored as a real 6 x 3 matrix, Re V above Im V. A plaquette is a square of four links. A staple of a link
-is the product of the other three links of a plaquette. Let X be the product of a link and the sum of its
-staples. The generator of the link is the traceless anti-Hermitian part of -X.
+The equation of a link V is V' = -g0^2 (dS(V)) V, where g0 is the coupling constant and S is the Wilson action
+(M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518,
+section 1). The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is the generator of the
+link.
 
-The variable ``energy`` is the density E of the action. Each site has one plaquette for each pair of axes. E
-is the sum of 2 Re tr(1 - P) over the plaquettes P of a site.
+Each site has one link for each axis. The link leads to the next site along this axis. A link V is stored as a
+real 6 x 3 matrix: Re V above Im V. A plaquette is a square of four links. For each plaquette that contains V,
+the product of the other three links is a staple of V. Let X be the product of V and the sum of the staples of
+V. The generator of V is the traceless anti-Hermitian part of -X.
+
+The variable ``energy`` is the density of the action, the sum of 2 Re tr(1 - P) over the plaquettes P of a
+site. Each site has one plaquette for each pair of axes.
 """
 
 from collections.abc import Sequence
@@ -51,7 +54,8 @@ def staples(a: int) -> Matrix:
 def start(shape: Sequence[int]) -> np.ndarray:
     """Return random links for a lattice of the given shape (n1, ..., nd). The seed is fixed.
 
-    The result has the shape (n1, ..., nd, 18 d), with the d links of a site in its last axis.
+    The result has the shape (n1, ..., nd, 18 d). The last axis contains the d links of a site, 18 numbers for
+    each link.
     """
     draw, count = Random(1006), DIMENSION * int(np.prod(shape))
     parts = np.array([draw.gauss(0, 1) for _ in range(12 * count)]).reshape(count, 2, 2, 3)
@@ -63,7 +67,7 @@ def start(shape: Sequence[int]) -> np.ndarray:
     return np.concatenate([columns.real, columns.imag], axis=1).reshape(*shape, -1)
 
 
-# The upper half of the 6 x 3 matrix of a plaquette P is Re P.
+# Each entry is the 6 x 3 matrix of a plaquette P: Re P above Im P.
 plaquettes = [
     link(a) * (link(b, (a, 1)) * (link(a, (b, 1)).T * link(b).T[:, :3])) for a, b in combinations(axes, 2)
 ]

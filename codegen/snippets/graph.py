@@ -1,7 +1,7 @@
 """Snippets are the run-time helpers of emitted code. This module computes their call graph.
 
 A node is a helper, or a function in the mathematical library of the target language. An edge leads from a
-helper to a function that it calls. The folder ``snippets/TARGET`` has a template for each helper.
+helper to a function that it calls. The folder ``snippets/TARGET`` contains the templates of the helpers.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the helpers that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
+    """Return the helpers that compute c_k(z) at the same z for all k in ``orders``."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]
@@ -91,12 +91,12 @@ def _shared_angle(
     if precision is not DOUBLE or batch:
         listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
         return listed
-    # The branch near zero is inlined at each call. The branch for larger arguments is called rarely, so it is
-    # a separate function.
+    # The function for arguments near zero is inlined at each call. Larger arguments are rare, so a separate
+    # function computes c_k for larger arguments.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # A C compiler does not inline long functions. If ``orders`` has three or more elements, each c_k
-    # therefore has one short polynomial instead of two.
+    # A C compiler does not inline long functions. If there are three or more ``orders``, the inlined function
+    # therefore has only the polynomial for ``SMALL``, and not the polynomial for ``TINY``.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -107,8 +107,9 @@ def _shared_angle(
 def trigonometric(precision: Precision) -> list[Snippet]:
     """Return the helpers for sine and cosine without branches.
 
-    The helpers ``sin_near`` and ``cos_near`` are for bounded angles. The helpers ``sin_complete`` and
-    ``cos_complete`` are for all angles.
+    The helpers ``sin_near`` and ``cos_near`` are for angles up to
+    :data:`~codegen.snippets.lane_angles.LARGEST`. The helpers ``sin_complete`` and ``cos_complete`` are for
+    all angles: for larger angles they call the library functions.
     """
     shared = {
         **lane_angles.reduction(precision),
@@ -137,7 +138,7 @@ def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) 
 
 @cache
 def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
-    """Return the call graph of all helpers: an edge leads from each helper to each function that it calls."""
+    """Return the call graph of all helpers: an edge leads from a helper to each function that it calls."""
     result = nx.DiGraph()
     result.add_nodes_from(LIBRARY, snippet=None)
     for snippet in snippets(precision, batch):
@@ -169,13 +170,13 @@ def needed(
     prefix: str = "",
     batch: bool = False,
 ) -> Needed:
-    """Return the helpers and library functions that a module of a target needs, and no others.
+    """Return the helpers and library functions that an emitted module needs.
 
     - ``functions``: the functions that the module calls.
-    - ``sweeps``: True if the module solves equations by loops, and may call the helpers in each iteration.
-      Then all branches of Stumpff functions are declared inline in C.
-    - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
-      In C, loops over these rows are unrolled.
+    - ``sweeps``: True if the module solves equations by iteration. In this case all helpers for Stumpff
+      functions are declared inline in C.
+    - ``wide``: the number of rows of the inverted matrices if all have the same small size, else 0. If
+      ``wide`` is not 0, the inner loop of the inversion is unrolled in C.
     - ``widest``: the number of rows of the largest inverted matrix.
     - ``chain``: the number of angles in the longest sequence of rotations in a step. In such a sequence, the
       angle of each rotation is computed from the result of the preceding rotation

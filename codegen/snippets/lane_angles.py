@@ -1,12 +1,14 @@
 """Constants for functions that compute sine and cosine without branches.
 
-Loops over many systems call these functions. Without branches, a C compiler can vectorise such a loop.
+Loops over many systems call these functions. A C compiler can vectorise the loops, because the functions
+have no branches.
 
-An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. This integer is computed without
-a branch: the large constant ``round`` is added to 2x/pi in floating-point arithmetic, which rounds the sum.
-The number pi/2 is stored as a sum of parts. All parts except the last have few bits, so their products with k
-are exact. Polynomials for the Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`)
-give sin r = r c_1(r^2) and cos r = c_0(r^2).
+The reduced angle of an angle x is r = x - k pi/2, where k is the integer nearest to 2x/pi. To compute k
+without a branch, the large constant ``round`` is added to 2x/pi, and is subtracted from the sum. The sum is
+an integer, because floating-point numbers of this size have no fraction. The number pi/2 is stored as a sum
+of parts. All parts except the last have few bits, so their products with k are exact. Polynomials for the
+Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and
+cos r = c_0(r^2).
 """
 
 from __future__ import annotations
@@ -17,23 +19,23 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""The largest angle for which sine and cosine are computed. For larger angles the result is NaN.
+"""The largest angle for which the helpers ``sin_near`` and ``cos_near`` do not return NaN.
 
-Each key is the number of bits of the significand in a number format.
+The keys are the numbers of bits of the significand: 53 in double precision and 24 in single precision.
 """
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
-"""An upper bound of r^2 for reduced angles r. Reduced angles satisfy |r| <= pi/4, and (pi/4)^2 is 0.617."""
+"""An upper bound of r^2 for a reduced angle r. |r| is at most about pi/4, so r^2 is at most about 0.617."""
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
-    """Return the constants that reduce an angle, as a table from names to values.
+    """Return the constants for the reduction of an angle x, with their names as keys.
 
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: a large number. If it is added to 2x/pi, the sum is rounded to an integer.
+    - ``round``: a large number. The floating-point sum of this number and 2x/pi is an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])
@@ -54,7 +56,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 
 
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
-    """Return the coefficients of a polynomial for the Stumpff function c_k, from the lowest degree.
+    """Return the coefficients of a polynomial for the Stumpff function c_k, beginning with the constant term.
 
     The polynomial in z = r^2 is accurate for all reduced angles r.
     """

@@ -5,11 +5,11 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
     c_0 = cos sqrt z,   c_1 = sin(sqrt z)/sqrt z,
     c_2 = (1 - cos sqrt z)/z,   c_3 = (sqrt z - sin sqrt z)/z^(3/2).
 
-For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial. If z is very small, a shorter polynomial is
-used. For larger z, c_0 and c_1 are evaluated by their closed forms. For c_2 and c_3, formulas without
-cancellation are used: c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z. The formula of c_3 has no cancellation,
-because c_1 < 1/2 for z > SWITCH[3]. Errors are at most two units in the last place, plus the effect of a
-rounding error of half a unit in sqrt z. For z above :func:`limit` the value is NaN.
+If z <= SWITCH[k], c_k is evaluated by a polynomial, which is shorter for very small z. If z > SWITCH[k], c_0
+and c_1 are evaluated by their closed forms. The closed forms of c_2 and c_3 suffer from cancellation, so the
+formulas c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z are used. The formula of c_3 has no cancellation, because
+c_1 < 1/2 for z > SWITCH[3] = 4. The error is at most two units in the last place, apart from the effect of
+the rounding error in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial. For larger z, a closed form is used.
+"""For z <= SWITCH[k], c_k is evaluated by a polynomial. For larger z, a closed form is used.
 
-The closed form c_3 = (1 - c_1)/z has no cancellation if c_1 < 1/2, which holds for z > 4.
+For z > 4 the closed form c_3 = (1 - c_1)/z has no cancellation, because c_1 < 1/2.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""For z <= SMALL, c_k(z) has a shorter polynomial, and for z <= TINY a still shorter one.
+"""For z <= SMALL a short polynomial is used for c_k(z), and for z <= TINY the shortest polynomial.
 
-Here z is the square of an angle. The limits are the squares of the angles 1/4 and 1/16.
+SMALL and TINY are the squares of the angles 1/4 and 1/16.
 """
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""All non-empty sets of indices k. One emitted function computes c_k for all k in a set."""
+"""All non-empty sets of indices k of c_0, ..., c_3. For each set, one helper computes all c_k of the set."""
 
 
 LEFT = 10
@@ -46,16 +46,14 @@ LEFT = 10
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
 
-    For a larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
-    eps = 2^-bits be the relative rounding error of the angle. Then the error of the rotated vector is the
-    product of ``a`` and eps. The error of the field at the rotated vector is assumed to be eight times as
-    large.
+    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
+    eps = 2^-bits be the relative rounding error of the angle. The error of the rotated vector is a eps. The
+    error of the field at the rotated vector is assumed to be 8 a eps.
 
-    Suppose that a step computes ``chain`` angles, and each angle is computed from the vector that the
-    preceding rotation gives (:func:`codegen.ir.angle_depth.chain`). Then the error of the last rotated vector
-    is a^chain 8^(chain-1) eps. The largest angle is chosen such that this error is at most 2^-LEFT
-    (:data:`LEFT`). If this angle is outside the interval from 2^(bits/6) to 2^(2 bits/5), the nearest end of
-    the interval is taken.
+    In a step, ``chain`` rotations follow each other. The angle of each rotation is computed from the result
+    of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). The error of the last vector is
+    therefore a^chain 8^(chain-1) eps. The largest angle is chosen such that this error is at most 2^-LEFT
+    (:data:`LEFT`). But the largest angle is at least 2^(bits/6) and at most 2^(2 bits/5).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -68,8 +66,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a Taylor polynomial of c_k that is accurate from z = 0 to z = ``last``.
 
-    All terms before the first negligible term are included. A term is negligible if its value at z = ``last``
-    is at most an eighth of the last bit of c_k(0). The default of ``last`` is SWITCH[k].
+    The polynomial contains all terms before the first negligible term. A term is negligible if its absolute
+    value at z = ``last`` is at most 2^-(bits + 3) c_k(0). The default of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
@@ -88,12 +86,12 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the coefficients of a short polynomial for c_k on 0 <= z <= ``last``.
 
-    The error is at most 1/16 of the last bit of c_k(0). The degree of the Taylor polynomial is lowered:
-    multiples of Chebyshev polynomials are subtracted. The argument of each Chebyshev polynomial is shifted
-    such that the polynomial is zero at z = 0. The value of c_k at z = 0 therefore stays exact.
+    The error is at most about 2^-(bits + 4) c_k(0). To lower the degree of the Taylor polynomial, multiples
+    of shifted Chebyshev polynomials are subtracted. The shifted polynomials are zero at z = 0, so the value
+    at z = 0 is exact.
 
-    The error is required to be small, because errors add up over many steps: in a steady motion z is nearly
-    constant, so the error has the same sign in all steps.
+    The error bound is small, because in a steady motion z is nearly constant. The errors of all steps then
+    have the same sign and add up.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -127,12 +125,12 @@ def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
 
 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the Taylor coefficients of c_k, each rounded to the given floating-point precision."""
+    """Return the result of :func:`coefficients`, rounded to the given floating-point precision."""
     return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))
 
 
 def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the coefficients of a Taylor polynomial of c_k'' that is accurate from z = 0 to z = 1.
+    """Return the coefficients of a Taylor polynomial of the second derivative of c_k, for z from 0 to 1.
 
     >>> [round(1 / x) for x in curvatures(2)[:2]]
     [360, -6720]
@@ -142,7 +140,7 @@ def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
 
 
 def slopes(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the coefficients of a Taylor polynomial of c_k' that is accurate from z = -1 to z = 1.
+    """Return the coefficients of a Taylor polynomial of the first derivative of c_k, for z from -1 to 1.
 
     >>> [1 / x for x in slopes(2)[:2]]
     [-24.0, 360.0]
