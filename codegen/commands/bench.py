@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command(
-    "bench", cls=Variadic, short_help="Measure error and run time of emitted and other integrators."
+    "bench", cls=Variadic, short_help="Compare the errors and run times of integrators on a scene."
 )
 @scene_argument()
 @methods_option()
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="A form of the equations: printed (the equations of the scene), body-matrix or quaternion. Peers "
-    "and the methods ambient:TABLEAU integrate this form. The option may be repeated. Default: all forms.",
+    help="A form of the equations for peers and for the methods ambient:TABLEAU: printed (the equations of "
+    "the scene), body-matrix or quaternion. The option may be repeated. Default: all forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     "-o",
     type=FOLDER,
     metavar="DIR",
-    help="The folder to write SCENE.csv, SCENE.json and SCENE.svg to.",
+    help="The folder for SCENE.csv, SCENE.json and SCENE.svg.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the rows as JSON.")
 def command(
@@ -68,17 +68,19 @@ def command(
     """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and measure
     error and run time.
 
-    --adaptive accepts methods whose tableau has an embedded method for an error estimate, such as
-    ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control.
-    --against names peers, which are other integrators: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
+    With --adaptive, methods run with step-size control. The tableau must have an embedded method for the
+    error estimate. Examples are ambient:dop853, rkmk(3):dormand_prince5 and ambient:radau2a3.
+
+    With --against, other integrators (peers) also run: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
     diffrax, c-dop853, c-rk4-projected. The name 'scipy' selects all installed peers of SciPy, 'c' selects all
     peers in C, and 'all' selects all installed peers.
 
     The equations of a scene may have several classical forms, for example with a quaternion instead of a
-    rotation matrix. The methods ambient:TABLEAU and most peers run on each form. The tables name the form in
-    which the method or peer is fastest. If a measurement with -o is interrupted, repeat the command to
-    continue the measurement. If a run of a method or peer fails, the row of this run contains the reason. The
-    exit status is 1 if a method or peer has no successful run.
+    rotation matrix. The methods ambient:TABLEAU and most peers run on each form. The table of the fastest
+    methods shows only the fastest form of a method or peer.
+
+    If a measurement with -o is interrupted, repeat the command to continue the measurement. If a run fails,
+    its row contains the reason. The exit status is 1 if a method or peer has no successful run.
 
     \b
     Examples:
@@ -110,8 +112,10 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print three tables: all runs, the two fastest methods for each power of ten of the error, and the times
-    of emission and compilation.
+    """Print three tables, and the paths of the written files.
+
+    The first table lists all runs. The second table lists the two fastest methods for each error 10^-k. The
+    third table lists the times of emission and compilation.
     """
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration

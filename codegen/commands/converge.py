@@ -28,21 +28,21 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--form",
-    help="Form of the equations: printed, body-matrix or quaternion. The default, printed, keeps the "
-    "equations of the scene.",
+    help="Form of the equations: printed (the default: the equations of the scene), body-matrix or "
+    "quaternion.",
 )
 @click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="With 'strict', the order is measured on built-in scenes in 50 digits, and compared with the order "
-    "that the tableau claims. SCENE must then be omitted.",
+    help="With 'strict', measure the order with 50 digits on built-in scenes, and omit SCENE. The default "
+    "of --stated is then the order that the tableau claims.",
 )
 @click.option(
     "--stated",
     type=click.IntRange(1, 20),
-    help="The order that the methods should have. The observed order is compared with it.",
+    help="The stated order of the methods, which is compared with the observed order.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -59,9 +59,10 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The observed order of a method is compared with a stated order, which is the value of --stated. By
-    default, the stated order follows from the order conditions. With --protocol strict, the default is the
-    order that the tableau claims. If a method cannot be emitted for the scene, the reason is printed.
+    The command compares the observed order of a method with a stated order. The option --stated sets the
+    stated order. By default, the stated order follows from the order conditions. With --protocol strict, an
+    order that the tableau claims is preferred. If a method cannot be emitted for the scene, the command
+    prints the reason.
 
     The exit status is 0 if every observed order equals the stated order. The exit status is 1 if an observed
     order differs from the stated order or is undecided, or if a method cannot be emitted.
@@ -73,14 +74,16 @@ def command(
         orderconds converge --protocol strict --method cf4
     """
     if (scene is None) != (protocol is not None):
-        raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
+        raise click.UsageError(
+            "give either SCENE or --protocol strict; the strict protocol has its own scenes"
+        )
     from codegen.scenes import with_values
 
     chosen = (target, form, digits)
     if scene is None and (steps or parameters or any(option is not None for option in chosen)):
         raise click.UsageError(
-            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form, "
-            "--parameter"
+            "--protocol strict cannot be used with --target, --steps, --digits, --form or --parameter; the "
+            "strict protocol sets the numbers of steps and uses 50 digits"
         )
     results = (
         _by_protocol(methods, stated, as_json)
@@ -140,7 +143,7 @@ def _by_protocol(
 def read_steps(texts: tuple[str, ...]) -> list[int]:
     """Return the numbers of steps in texts such as ``20,40,80``, sorted and without duplicates.
 
-    :class:`InputError` is raised for any other text.
+    If a number of steps is not a whole number from 1 to 99999999, :class:`InputError` is raised.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]
@@ -154,10 +157,10 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
-    """Print a table of the runs of one method, and below the table the verdict on the order of the method.
+    """Print a table of the runs of one method, and the verdict on the order of the method.
 
-    If the method cannot be emitted, the reason is printed. If ``first`` is false, an empty line precedes the
-    table.
+    If the method cannot be emitted, print the reason instead. If ``first`` is False, print an empty line
+    before the other output.
     """
     from codegen.lab.orders.convergence import NotEmitted
 

@@ -34,22 +34,24 @@ if TYPE_CHECKING:
 @click.option(
     "--prefix",
     default="",
-    help="Prefix of every external name in the emitted code; by default the names of scene and method.",
+    help="Prefix of every external name in the emitted code. The default consists of the names of the scene "
+    "and the method.",
 )
 @click.option(
     "--parameter",
     "-P",
     "parameters",
     multiple=True,
-    help="NAME makes a parameter of the scene a run-time argument; NAME=VALUE makes it a constant.",
+    help="A parameter of the scene. With NAME, the parameter becomes a run-time argument. With NAME=VALUE, "
+    "the parameter becomes a constant.",
 )
-@click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
+@click.option("--input", "inputs", multiple=True, help="Make this signal of the scene a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed, body-matrix or quaternion. The default, printed, keeps the "
-    "equations of the scene. The header of the emitted file describes the form.",
+    help="Form of the equations: printed (the default: the equations of the scene), body-matrix or "
+    "quaternion. The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
@@ -67,13 +69,13 @@ if TYPE_CHECKING:
     "--integrate",
     is_flag=True,
     help="Also emit a function that integrates to a given end time. The function accepts output times "
-    "and bounds on the step size, and it can continue an earlier run.",
+    "and bounds on the step size. A call can continue an earlier run.",
 )
 @click.option(
     "--dense",
     is_flag=True,
     help="Compute the state at an output time with the continuous extension of the tableau, not with a "
-    "shorter step. Implies --integrate.",
+    "shorter step. This option implies --integrate.",
 )
 @click.option(
     "--events",
@@ -81,7 +83,7 @@ if TYPE_CHECKING:
     default=0,
     metavar="N",
     help="The number of event functions. The function that --integrate emits also finds zeros of the event "
-    "functions. Implies --integrate.",
+    "functions. This option implies --integrate.",
 )
 @click.option(
     "--compensate",
@@ -96,13 +98,13 @@ if TYPE_CHECKING:
     "--solver",
     default="auto",
     help="Solver of implicit stages: newton, simplified-newton, fixed-point or auto. The default, auto, "
-    "chooses by predicted time and robustness.",
+    "selects a fast and robust solver.",
 )
 @click.option(
     "--explain",
     is_flag=True,
     help="Print the program after each compiler pass, and the number of operations that each pass removes. "
-    "For a lattice, also compile the module and measure the memory bandwidth of a step.",
+    "For a lattice, also measure the memory bandwidth of a step.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -126,11 +128,10 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    For an implicit method, a warning is printed if none of the solvers of its stages converges in the first
-    steps from the initial state of the scene.
+    For an implicit method, the command tests solvers in a few steps from the initial state of the scene. If
+    no solver converges, the command prints a warning.
 
-    Without -o no file is written. The option --explain or --json is then required, and the command only
-    prints a description of the module.
+    Without -o, the command only prints a description of the module, and --explain or --json is required.
 
     \b
     Examples:
@@ -143,7 +144,7 @@ def command(
     from codegen.printers import DEFAULT
 
     if output is None and not (explain or as_json):
-        raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
+        raise click.UsageError("-o DIR is missing; give -o DIR, --explain or --json")
     _require_known(targets, precision)
     options = {"solver": solver, "form": form}
     compiled = compile_method(
@@ -216,8 +217,8 @@ def _require_known(targets: tuple[str, ...], precision: str) -> None:
 def explained(compiled: Compiled) -> dict[str, object]:
     """Return the data that ``--explain`` adds to the JSON record of a module.
 
-    The data describe the compiler passes, the outlined functions, the solvers that were compared, and the
-    loops over the sites of a lattice.
+    The data describe the compiler passes, the outlined functions and the compared solvers. For a lattice, the
+    data also describe the loops over the sites.
     """
     return {
         "passes": [
@@ -231,9 +232,9 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note about the family that the compiler has chosen, because ``method`` names no family.
+    """Return a note about the family that the compiler has chosen for a method on a Hamiltonian scene.
 
-    If ``method`` names a family, or if the scene is not Hamiltonian, the result is ''.
+    If ``method`` contains a family, or if the scene is not Hamiltonian, the result is ''.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -249,11 +250,11 @@ def family_note(compiled: Compiled, method: str) -> str:
         if family != compiled.method.family and formats in family_class(family).formats
     ]
     other = f"; an alternative is {others[0]}:{compiled.method.name}" if others else ""
-    return f"{method.strip()} names no family; the method is emitted as {compiled.method.label}{other}"
+    return f"{method.strip()} contains no family; the method is emitted as {compiled.method.label}{other}"
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each system of implicit equations that no solver can solve in a few test steps."""
+    """Print a warning for each system of implicit equations for which no solver converges."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
@@ -263,7 +264,7 @@ def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
     The text contains the program after each compiler pass, and the numbers of operations. The last section
-    lists operations and arguments that the module does not need.
+    lists the operations and arguments that the compiler has left out, with reasons.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -307,9 +308,9 @@ def solvers_of(compiled: Compiled) -> list[str]:
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
-    """Return a dictionary for each outlined function: its name, the number of calls, and a description.
+    """Return a dictionary with the name, the number of calls and a description for each outlined function.
 
-    An outlined function contains operations that a step repeats.
+    An outlined function replaces a group of operations that occurs several times in a step.
     """
     from codegen.kernel.outlined_functions import calls
 

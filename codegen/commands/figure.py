@@ -9,7 +9,7 @@ from orderconds.commands.place import FILE, put
 from orderconds.commands.screen import counting, is_shown, print_json
 
 
-@click.command("figure", short_help="Draw a figure of a scene with curves that emitted code computes.")
+@click.command("figure", short_help="Draw a figure of a scene as an SVG file.")
 @scene_argument()
 @click.argument("name")
 @values_option
@@ -18,9 +18,9 @@ from orderconds.commands.screen import counting, is_shown, print_json
 def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_json: bool) -> int:
     """Draw the figure NAME of SCENE as an SVG file.
 
-    The file of the scene declares its figures. `orderconds list figures` prints the figures of all listed
-    scenes. Every curve is computed by C code that this command emits, compiles and runs. The exit status is 2
-    if the scene has no figure of this name.
+    The file of the scene declares its figures. `orderconds list figures` prints the names of the figures of
+    all listed scenes. The command emits, compiles and runs C code that computes the curves. The exit status
+    is 2 if the scene has no figure of this name.
 
     \b
     Examples:

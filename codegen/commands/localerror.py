@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
-    The emitted operations of a step are executed with power series in the step size h instead of numbers.
-    The coefficients of these series are exact. The power series of the new state is compared with the Taylor
-    series of the solution. The field must be a rational function of the coordinates. Initial coordinates that
-    are not rational are replaced by nearby rational numbers.
+    From the emitted operations, the command computes the new state of a step as a power series in the step
+    size h. The coefficients are exact. The power series is compared with the Taylor series of the solution.
+    The field must be a rational function of the coordinates. Initial coordinates that are not rational are
+    replaced by nearby rational numbers.
 
-    The exit status is 1 if the exact order is below the order that the order conditions give. The exit status
-    is also 1 if the exact order cannot be computed, for example if the coefficients of the method are known
-    only as intervals.
+    The exit status is 1 if the exact order is below the order that follows from the order conditions. The
+    exit status is also 1 if the exact order cannot be computed. For example, the coefficients of the method
+    may be known only as intervals.
 
     \b
     Examples:

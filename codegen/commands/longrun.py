@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps of a run. A drift cannot be computed from shorter runs."""
+"""The smallest number of steps that ``--steps`` accepts. A shorter run is not enough to measure a drift."""
 
 
 @click.command(
@@ -45,7 +45,7 @@ FEWEST = 200
     "with_properties",
     is_flag=True,
     help="Also test whether each method is symplectic and symmetric, and whether the first conserved "
-    "quantity drifts.",
+    "quantity of the table drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -63,9 +63,9 @@ def command(
 
     The column "law" contains a verdict on the relative deviation of a quantity: exact, bounded, random walk,
     drift, rounding (rounding errors explain the deviation), lost (the deviation is about as large as the
-    quantity) or too short to tell. For quantities that a method conserves exactly, the growth of rounding
-    errors is measured with and without compensated summation. The root mean square (rms) of these errors over
-    several initial states grows like a power of the number of steps. The column "steps^p" contains the
+    quantity) or too short to tell. If a method conserves a quantity in exact arithmetic, the rounding errors
+    are measured with and without compensated summation. The root mean square (rms) of the rounding errors
+    over several initial states grows like a power of the number of steps. The column "steps^p" contains the
     exponent p. The exit status is 1 if a run ends early or a method fails.
 
     \b
@@ -82,7 +82,7 @@ def command(
 
     problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    # Comparisons with NaN are false, so the negated condition also refuses NaN.
+    # If h is NaN, both comparisons are false, and the error is raised.
     if not 1e-300 <= abs(h) <= 1e300:
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
@@ -143,7 +143,7 @@ def show(run: LongRun) -> None:
     ]
     print_table(["quantity", "largest", "slope per unit of time", "t^p", "law"], rows, indent=2)
     for steps, distance in run.reversals:
-        click.echo(f"    distance {distance:.2e} from the start after {steps} steps forward and back")
+        click.echo(f"    distance {distance:.2e} from the start after {steps} steps forward and as many back")
     if run.rounding:
         rows = [
             [
@@ -155,9 +155,7 @@ def show(run: LongRun) -> None:
             ]
             for g in run.rounding
         ]
-        click.echo(
-            f"    rounding errors of exactly conserved quantities over {run.rounding[0].steps[-1]} steps"
-        )
+        click.echo(f"    rounding errors of conserved quantities over {run.rounding[0].steps[-1]} steps")
         print_table(["quantity", "steps", "rms", "steps^p", "law"], rows, indent=4)
     if run.symplectic is not None:
         click.echo(f"  largest symplectic defect of a step: {run.symplectic:.1e}")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""If computing the reference solution takes at least this fraction of the time budget, the output says so."""
+"""From this fraction of the time budget on, the output gives the time of the reference solution."""
 
 
 @click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")
@@ -30,8 +30,8 @@ NOTICED = 0.1
     "--need",
     "needs",
     multiple=True,
-    help="Required properties, separated by commas. The properties are manifold, symplectic, explicit, "
-    "adaptive (step-size control) and fixed (equal steps).",
+    help="Required properties, separated by commas: manifold, symplectic, explicit, adaptive (step-size "
+    "control) or fixed (equal steps).",
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest allowed stack memory of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")
@@ -61,8 +61,8 @@ def command(
 
     The option --need accepts five properties: manifold (the state stays on the manifold up to rounding),
     symplectic, explicit (no equations are solved), adaptive (step-size control) and fixed (equal steps). With
-    --need symplectic, a method is also excluded if it does not preserve a conserved quantity in a long run.
-    The exit status is 1 if no method is found.
+    --need symplectic, the search also excludes methods that lose a conserved quantity in a long run. The exit
+    status is 1 if no method is found.
 
     \b
     Examples:
@@ -119,7 +119,7 @@ def show(result: Recommendation) -> None:
 def control(asked: Request, place: Result) -> str:
     """Return the tolerance of a run with step-size control, or the step size of a run with equal steps.
 
-    The result is a text. It is '' if the step size is not known.
+    If both are unknown, the result is ''.
     """
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
@@ -134,8 +134,8 @@ def searched(result: Recommendation) -> str:
     warnings.
     """
     text = (
-        f"in {result.seconds:.0f} s, {result.predicted} methods were compared by predicted CPU time, and "
-        f"{result.raced} methods by measured CPU time"
+        f"in {result.seconds:.0f} s, the CPU time was predicted for {result.predicted} methods and measured "
+        f"for {result.raced} methods"
     )
     if result.kinks:
         text += (
@@ -151,7 +151,7 @@ def searched(result: Recommendation) -> str:
 def unreached(result: Recommendation) -> str:
     """Return a message for a search in which no method reaches the requested error.
 
-    The message contains the smallest measured error. If no error was measured, the message gives the reason.
+    The message contains the smallest measured error, or the reason why no error was measured.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -170,7 +170,7 @@ def unreached(result: Recommendation) -> str:
 def span_of(text: str) -> tuple[Fraction, Fraction]:
     """Return the time interval (A, B) that a text ``A:B`` describes.
 
-    :class:`SceneError` is raised for any other text.
+    If the text does not contain two numbers A < B, :class:`SceneError` is raised.
 
     >>> span_of("0:5/2")
     (Fraction(0, 1), Fraction(5, 2))

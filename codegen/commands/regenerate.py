@@ -32,9 +32,9 @@ from orderconds.commands.place import FOLDER
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
-    The manifests in the folder list the files that were emitted earlier. If such a file belongs to no module
-    of regenerate.toml, the file is reported as stale and removed. With --check it is only reported. A file
-    that no manifest lists is reported as unknown and not changed.
+    A file is stale if an earlier run emitted the file, but regenerate.toml no longer contains its module. The
+    command reports and removes stale files. With --check, the command only reports stale files. A file that
+    no earlier run emitted is reported as unknown and not changed.
 
     \b
     Examples:
@@ -68,10 +68,10 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 def source_folder() -> Path:
     """Return the folder ``generated/`` of the source tree that contains this package.
 
-    A usage error is raised if there is no such source tree.
+    If this package is not in a source tree, a usage error is raised.
     """
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():
         return root / "generated"
-    raise click.UsageError("this copy of orderconds is not in a source tree; name the folder with -o DIR")
+    raise click.UsageError("this copy of orderconds is not in a source tree; give the folder with -o DIR")

@@ -1,4 +1,4 @@
-"""``orderconds report``: HTML pages of measurements, one for each scene, and an overview."""
+"""``orderconds report``: write an HTML page of measurements for each scene, and an overview page."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ from orderconds.commands.variadic import Variadic
     "--only",
     "parts",
     multiple=True,
-    help="A measurement to make (see `orderconds list measurements`); may be repeated. Default: all "
-    "measurements.",
+    help="A measurement to make (see `orderconds list measurements`). The option may be repeated. Default: "
+    "all measurements.",
 )
 @click.option("--all", "everything", is_flag=True, help="Measure every scene of the gallery.")
 @click.option(
@@ -54,7 +54,7 @@ from orderconds.commands.variadic import Variadic
     "--processes",
     type=click.IntRange(1),
     metavar="N",
-    help="Measure N scenes at the same time; by default, one for each processor.",
+    help="The number of scenes measured at the same time; by default the number of processors.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -76,15 +76,14 @@ def command(
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
     methods for every scene. The measurements take one to two minutes for a Hamiltonian scene, and about half
     a minute for other scenes. Several scenes are measured at the same time. All measured times are CPU times.
-    With several processes, the measured times are a little longer than with --processes 1,
-    because the processors share caches. For more than eight scenes, the search for the fastest method is
-    shorter, and by default the growth of rounding errors is not measured. If a report is interrupted, repeat
-    the command to continue the report. If a method fails, the page gives the reason. The pages need no
-    network connection.
+    The processors share caches, so the times are a little shorter with --processes 1. For more than eight
+    scenes, the search for the fastest method is shorter, and the growth of rounding errors is omitted by
+    default. If a report is interrupted, repeat the command to continue the report. If a method fails, the
+    page gives the reason. The pages need no network connection.
 
     The exit status is 1 in three cases: an observed order differs from the order that follows from the order
     conditions, a step with extremely large or small numbers gives a wrong result, or a method fails. The
-    pages are also written in these cases.
+    command always writes the pages.
 
     \b
     Examples:
@@ -95,7 +94,7 @@ def command(
     from codegen.scenes import with_values
 
     if everything and scenes:
-        raise click.UsageError("name SCENEs, or give --all, but not both")
+        raise click.UsageError("SCENE cannot be used with --all")
     if parameters and not scenes:
         raise click.UsageError("--parameter is used without a SCENE; give the SCENE of the parameter")
     scenes = tuple(with_values(name, parameters) for name in scenes)

@@ -1,4 +1,4 @@
-"""``orderconds stability``: stress tests of emitted integrators on stiff and extreme inputs."""
+"""``orderconds stability``: test emitted integrators on stiff and extreme inputs."""
 
 from __future__ import annotations
 
@@ -56,12 +56,12 @@ def command(
     from codegen.lab.default_methods import methods_for
 
     if everything == (scene is not None):
-        raise click.UsageError("name one SCENE, or give --all")
+        raise click.UsageError("give either SCENE or --all")
     if everything and parameters:
         raise click.UsageError("--parameter cannot be used with --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
-        # If a scene or a method cannot be tested, these lines raise InputError before the first test.
+        # If a scene or a method cannot be tested, raise InputError before the first test.
         scenes.with_one_system(scenes.load(name)).require_formulas()
         methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []
@@ -81,10 +81,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Run all stress tests of a job, which names one scene and several methods. Return the results.
-
-    ``progress`` is called with progress messages.
-    """
+    """Run all stress tests of a job and return the results. ``progress`` is called with messages."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability

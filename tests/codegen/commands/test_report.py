@@ -149,7 +149,7 @@ def test_an_interrupted_report_goes_on_where_it_stopped(
 def test_the_gallery_is_all_or_named(tmp_path: Path) -> None:
     result = run("dipole", "--all", "-o", str(tmp_path))
     assert result.exit_code == 2
-    assert "name SCENEs, or give --all" in result.output
+    assert "SCENE cannot be used with --all" in result.output
 
 
 @pytest.mark.slow
