@@ -32,8 +32,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # If the library stayed open, the next ``dlopen`` would return the same library, even if the file
-            # was rebuilt.
+            # ``dlopen`` does not read the file of an open library again. The library is closed, because its
+            # file may be rebuilt.
             self._ffi.dlclose(self._library)
             raise
 
@@ -154,12 +154,11 @@ class CompiledIntegrator(Integrator):
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield two lists of arguments for a C function.
 
-        The first list contains a function that computes the run-time inputs. The second list contains the
-        structure into which the C function writes its iteration counts. A list is empty if the C function has
-        no such argument.
+        The first list contains the callback for the run-time inputs. The second list contains the structure
+        for the iteration counts. If the C function has no such argument, the list is empty.
 
-        If the computation of the inputs raises an error, this error is raised again at the end of the
-        ``with`` block. Otherwise the iteration counts are added to ``begun.statistics``.
+        If the callback fails, its error is raised at the end of the ``with`` block. Otherwise the iteration
+        counts are added to ``begun.statistics``.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
@@ -233,7 +232,7 @@ class _Buffers:
 
 
 class _Callback:
-    """A function that C code calls. It computes the run-time inputs at a time by a Python function.
+    """A callback for C code. A Python function computes the run-time inputs at a given time.
 
     If the Python function raises an error, the attribute ``failure`` is this error. After an error, all
     run-time inputs are NaN, and the step fails.

@@ -1,4 +1,4 @@
-"""Compile a method for a scene, and emit the files of a module with its manifest entry.
+"""Compile a method for a scene, and emit a module. A module consists of files and a manifest entry.
 
 :func:`compile_method` translates the method and the scene to a step program, optimises the program in
 several passes, and translates the optimised program to a kernel.
@@ -55,9 +55,9 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The costs of operations, where an addition or a product costs 1. Functions that are not listed cost 12.
+"""The costs of operations. An addition or a product costs 1. Functions that are not listed cost 12.
 
-The compiler compares the costs of two versions of a step.
+If a step has two versions, the compiler chooses the cheaper one.
 """
 
 
@@ -85,8 +85,8 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the classical form of the equations that the caller has chosen, or None. If a form is
-      chosen, ``scene`` contains the equations in this form.
+    - ``form`` is the chosen classical form of the equations, or None. If ``form`` is not None, ``scene``
+      contains the equations in this form.
     """
 
     kernel: Kernel
@@ -94,13 +94,13 @@ class Compiled(Optimised):
     asked: str = AUTO
     form: ClassicalForm | None = None
     compensated: bool = False
-    """True if the state also contains the rounding error of each coordinate, for compensated summation."""
+    """True if the step uses compensated summation. The state then also contains rounding errors."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return the optimised step program of a method on a scene, without a kernel.
 
-    No kernel is needed, so the operations of the group need not have closed forms.
+    Unlike a kernel, the step program does not need closed forms for the operations of the group.
     """
     scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
@@ -124,7 +124,7 @@ def compile_method(
 ) -> Compiled:
     """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
-    - ``scene``: an object or a name. ``method``: an object, a name, or a tableau of the ``family``.
+    - ``scene``: a problem or its name. ``method``: a method, its name, or a tableau of ``family``.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
       not listed are constants.
     - ``inputs``: signals that become run-time inputs.
@@ -171,10 +171,10 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Return the scene after the listed parameters and signals have been changed.
+    """Return the scene with changed parameters and inputs.
 
-    A parameter with a value (``alpha=1/2``) becomes a constant. A parameter without a value, or a signal,
-    becomes a run-time argument.
+    An entry ``alpha=1/2`` of ``parameters`` makes alpha the constant 1/2. An entry ``alpha`` makes alpha a
+    run-time argument. The signals ``inputs`` become run-time arguments.
     """
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
@@ -183,9 +183,10 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Add requested features to a compiled method, and return the result.
+    """Return the compiled method with the requested features.
 
     The possible features are compensated summation, the derivative of a step, and a run to a given end time.
+    ``degree`` is the degree of the Taylor polynomial of a step, or 0 for other methods.
     """
     method = compiled.method
     if request.compensate:
@@ -214,8 +215,8 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    C compilers do not vectorise loops that contain calls. Therefore most explicit steps are translated
-    without functions for repeated operations. MethodError is raised for a semilinear equation.
+    C compilers do not vectorise a loop over the systems if the loop contains function calls. Therefore the
+    code of most explicit steps has no separate functions. MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -235,7 +236,7 @@ def with_batch(compiled: Compiled) -> Compiled:
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a compiled method on a scene whose formulas contain large matrices.
 
-    MethodError is raised for an option that such a scene does not support.
+    MethodError is raised for the options --jacobian, --compensate, --dense, --events and --integrate.
     """
     options = {
         "--jacobian": jacobian,
@@ -263,8 +264,8 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
 def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a compiled method on a chain, a lattice or a semilinear equation.
 
-    MethodError is raised if an error estimate, a Jacobian, compensated summation or a run to an end time is
-    requested.
+    Error estimates, Jacobians, compensated summation and runs to an end time are not available. A request for
+    one of these features raises MethodError.
     """
     requests = {
         "an error estimate": method.adaptive,
@@ -278,8 +279,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # ``scene.coordinates`` is a coordinate map with a closed form. A method with a cut-off truncates the
-        # series of dexp^{-1}, so it cannot use this closed form.
+        # A method with a cut-off truncates the series of dexp^{-1}. Therefore it cannot use the closed form
+        # of the coordinate map ``scene.coordinates``.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -292,7 +293,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 def work(kernel: Kernel) -> int:
     """Return an estimate of the cost of a step. An addition costs 1 (:data:`WEIGHTS`).
 
-    The operations of an iteration are counted :data:`SWEEPS` times. All other operations are counted once.
+    The estimate assumes :data:`SWEEPS` iterations for each implicit equation.
     """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
@@ -331,8 +332,8 @@ def emit(
     ``auto`` for the cheapest. ``form`` is the key of a classical form of the scene, by default the form in
     which the scene states its equations. ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
-    output at given times. If ``adaptive`` is also True, the run has bounds on step sizes. ``events`` is the
-    number of event functions of the run. ``dense`` uses the continuous extension at output times.
+    output at given times. With ``adaptive``, this run has a smallest and a largest step size. ``events`` is
+    the number of event functions of this run. ``dense`` uses the continuous extension at output times.
     ``compensate`` extends the state by the rounding errors of compensated summation. These errors are zero
     in the initial state. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and
     InputError for a prefix that is not a valid name in C.
@@ -374,9 +375,9 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    The header shows the command that emits the module. In this command, the scene and the method have the
-    names that ``named`` contains. ``order`` is the result of :func:`certified_order`. If ``order`` is
-    None, this result is computed.
+    The header shows the command that emits the module. ``named`` contains the names of the scene and the
+    method in this command. ``order`` is the result of :func:`certified_order`. If ``order`` is None, the
+    order is computed.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -409,7 +410,7 @@ def emit_compiled(
 
 
 def options_of(compiled: Compiled, precision: str) -> list[str]:
-    """Return the options of the command that emits the module again. ``--prefix`` is not included."""
+    """Return the options of the command that emits the module, without ``--prefix``."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
@@ -424,8 +425,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A run-time argument may have a default value. The command then has two options for the argument: one
-    # without a value, and one with the default value.
+    # A run-time argument with a new default value needs two options: ``--parameter p`` and
+    # ``--parameter p=value``.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

@@ -6,8 +6,8 @@ called blind.
 
 A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
 In these two cases, the order of the estimate and the order of the local error are measured. For this purpose,
-very short steps of two sizes are computed with 100 digits. The local error of a step of size h is replaced by
-the difference between this step and two steps of size h/2.
+very short steps of two sizes are computed with 100 digits. The local error of a step of size h is estimated
+by its difference from the result of two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""A number that determines the smaller step size.
+"""A number in the formula for the smaller of the two step sizes.
 
-This size is the length of the time interval of the scene times 10^(-SMALLEST / (p + 2)). Here p is the order
-of the method.
+The smaller size is T times 10^(-SMALLEST / (p + 2)). Here T is the length of the time span of the scene, and
+p is the order of the method.
 """
 
 ROUNDING = 1e-90
@@ -43,7 +43,7 @@ most ROUNDING times max(1, m). Here m is the largest absolute value of an entry 
 
 RATIO = 8
 HIGHER = 0.5
-"""An estimate is blind if its order exceeds the order of the local error by more than this number."""
+"""An estimate is blind if its measured order is larger than that of the local error by more than HIGHER."""
 
 LARGEST_CUTOFF = 12
 
@@ -51,7 +51,7 @@ State = tuple[Scalar, ...]
 
 
 def order_of_estimate(method: Method, scene: Problem) -> int:
-    """Return the exponent p of an adaptive method whose error estimate is O(h^p) for the step size h.
+    """Return the order p of the error estimate of a method. For the step size h, the estimate is O(h^p).
 
     :class:`MethodError` is raised if there is no embedded method, or if the estimate has a higher order than
     the local error on this scene.
@@ -60,14 +60,14 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on t alone, it has the same value in all stages at the same time. The method and
-    # its embedded method may then give the same result although their orders differ.
+    # If the field depends on t alone, stages at the same time have the same value of the field. The method
+    # and its embedded method can then give the same result, even if they have different orders.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
             "and its embedded method give the same result or the same leading error",
             where=scene.name,
-            expected="an embedded method whose result on y' = A(t).y differs from the method's result",
+            expected="an embedded method with another leading error on this scene",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",
         )
     if order == lower_order and is_blind(method, embedded, scene, order):
@@ -85,8 +85,9 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
     """Return True if the error estimate of a method is blind.
 
     The estimate is the difference between a step of ``method`` and a step of ``embedded``. It is blind if it
-    is always zero, or if it has a higher order than the local error. ``order`` is the order of ``method``.
-    Very short steps are computed to measure both orders. If such a step fails, the result is False.
+    is always zero, or if it has a higher order than the local error. The order of the estimate and the order
+    of the local error are measured with very short steps. If a step fails, the result is False. ``order`` is
+    the order of ``method``.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -109,10 +110,10 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
 def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], float, float], State]:
     """Return a function that computes a step of a method in 100 digits.
 
-    The arguments of the function are a state, the time since the start of the span, and the step size.
+    The function takes a state, the time since the start of the time span, and the step size.
     """
-    # In the program that ``lower`` returns, all stages are unknowns of an iteration. ``blocks.run`` changes
-    # explicit stages to assignments, so that each of them is computed only once.
+    # ``lower`` returns a program in which all stages are unknowns of an iteration. ``blocks.run`` changes
+    # explicit stages to assignments, because an explicit stage needs no iteration.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -130,9 +131,9 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
 
 def _gap(a: State, b: State) -> Scalar:
-    """Return the largest difference between corresponding numbers of two states.
+    """Return the largest difference between the entries of two states.
 
-    The result is 0 if the difference is not larger than the rounding errors (:data:`ROUNDING`).
+    If the bound for rounding errors (:data:`ROUNDING`) is not exceeded, the result is 0.
     """
     largest = max(abs(x - y).mid() for x, y in zip(a, b, strict=True))
     return largest if largest > ROUNDING * max(1, *(abs(x).mid() for x in a)) else 0
@@ -145,9 +146,9 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 def _hint(method: Method, scene: Problem) -> str:
     """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The hint recommends the
-    smallest larger cut-off for which the estimate is not blind. If no cut-off up to LARGEST_CUTOFF is
-    suitable, the hint recommends another tableau.
+    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The hint recommends a
+    larger cut-off: the smallest one for which the estimate is not blind. If no cut-off up to LARGEST_CUTOFF
+    is suitable, the hint recommends another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

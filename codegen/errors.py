@@ -1,6 +1,6 @@
 """Errors that a user of the compiler can cause.
 
-The module :mod:`orderconds.errors` describes the form of their messages.
+The module :mod:`orderconds.errors` describes the form of the messages.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """Raised if the tableau claims no order in the families that accept the scene.
+    """Raised if the families cannot use the format of a tableau, or if the tableau claims no order in them.
 
-    ``claimed`` are the families in which the tableau claims an order.
+    ``claimed`` contains the families in which the tableau claims an order.
     """
 
     claimed: tuple[str, ...] = ()

@@ -12,10 +12,10 @@ EventFunction = Callable[[float, Any], float]
 """A function of the time and the state. The state has the type of the initial state of the run."""
 
 RISING, FALLING = 1, -1
-"""The direction of a zero.
+"""The direction in which an event function passes through zero.
 
-RISING means that the values of the event function change from negative to positive. FALLING means that they
-change from positive to negative.
+RISING is the direction from negative to positive values. FALLING is the direction from positive to negative
+values.
 """
 
 
@@ -23,8 +23,8 @@ change from positive to negative.
 class Event:
     """An event: the zeros of a function g(t, y).
 
-    ``direction`` says which zeros count: RISING (1), FALLING (-1), or 0 for both directions. If ``terminal``
-    is true, such a zero ends the run.
+    ``direction`` is the direction of these zeros: RISING (1), FALLING (-1), or 0 for both directions. If
+    ``terminal`` is true, a zero in this direction ends the run.
     """
 
     function: EventFunction
@@ -33,10 +33,9 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """A code that says which zeros of the event function end the run.
+        """A code for the zeros that end the run.
 
-        The code is 1 for increasing values, 2 for decreasing values, 3 for both, and 0 if no zero ends the
-        run.
+        The code is 1 for RISING zeros, 2 for FALLING zeros, 3 for all zeros, and 0 for no zeros.
         """
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
@@ -57,7 +56,7 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return the events in the list ``given``, which contains events and functions.
+    """Return the entries of the list ``given`` as events. An entry is an event or a function.
 
     A function becomes an event that does not end the run. The emitted module accepts at most ``most`` events.
     ValueError is raised if ``given`` contains more events, or if the direction of an event is not 1, -1 or 0.
@@ -92,7 +91,7 @@ class EventValues:
     """A callable object that computes the values of all event functions. Emitted code calls the object.
 
     ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
-    the error is stored, and all values are NaNs. Emitted code ends the run at a NaN.
+    the error is stored, and all values are NaNs. If a value is NaN, emitted code ends the run.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
@@ -100,7 +99,7 @@ class EventValues:
         self.failure: BaseException | None = None
 
     def __call__(self, t: float, state: Sequence[float]) -> list[float]:
-        """Return the values of all event functions at the time t for a flat state."""
+        """Return the values of all event functions at the time t. The state is a flat list of numbers."""
         try:
             form = self.restore(list(state))
             values = [
@@ -109,5 +108,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. Additional values are 1, so emitted code finds no zero of them.
+        # Emitted code reads ``size`` values. Missing values are replaced by 1, which is never a zero.
         return values + [1.0] * (self.size - len(values))

@@ -17,7 +17,7 @@ from codegen.scene.flow import Flow
 class Drift(Flow):
     """The flow of a kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
 
-    In the time tau, the group element q becomes exp(tau xi) q with the velocity xi = dT/dmu. The momentum is
+    After the time tau, the group element is exp(tau xi) q. Here xi = dT/dmu is the velocity. The momentum is
     constant.
     """
 

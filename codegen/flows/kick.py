@@ -45,7 +45,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with a kick as its flow, or None if the part depends on the momentum mu."""
+    """If the part depends on the momentum mu, return None. Otherwise return the part with its kick."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

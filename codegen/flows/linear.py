@@ -19,12 +19,12 @@ from codegen.scene.flow import Flow
 class Linear(Flow):
     """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
 
-    The attributes ``matrix`` and ``constant`` are L and c. The attribute ``squares`` is a vector w without
-    negative entries. It satisfies L^2 = -diag(w). In the time tau the flow maps z to
+    The attributes ``matrix`` and ``constant`` are L and c. The attribute ``squares`` is the vector w
+    with L^2 = -diag(w). The entries of w are not negative. After the time tau, the flow has mapped z to
 
         (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c.
 
-    Here C_k is the diagonal matrix with the entries c_k(w_i tau^2), and c_k is the Stumpff function
+    Here C_k is the diagonal matrix with the entries c_k(w_i tau^2). The function c_k is the Stumpff function
     c_k(x) = sum_j (-x)^j/(2j+k)!.
     """
 
@@ -57,7 +57,7 @@ class Linear(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the derivatives (q', mu'), computed as z' = L z + c with z = (q, mu)."""
+        """Return the two halves q' and mu' of the derivative z' = L z + c."""
         z = (*q, *mu)
         rows = [_applied(d, row, z, c) for row, c in zip(self.matrix, self.constant, strict=True)]
         rates: Vector[S] = tuple(d.rational(0) if rate is None else rate for rate in rows)
@@ -74,8 +74,8 @@ def recognise(formula: Formula) -> Part | None:
     The matrix L is J times the Hessian matrix of the part. J is the block matrix with the rows (0, I) and
     (-I, 0), where I is the identity matrix.
 
-    The result is None if the group is not abelian. In the following cases the result is a :class:`Part` that
-    has no flow: the part is not quadratic, L^2 is not diagonal, or L^2 has a positive entry.
+    If the group is not abelian, the result is None. The result is a :class:`Part` without summands in the
+    following cases: the part is not quadratic, L^2 is not diagonal, or L^2 has a positive entry.
     """
     if not formula.problem.group.abelian:
         return None
@@ -120,7 +120,7 @@ def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
 
 
 def _applied(d: Domain, row: Sequence[Fraction], z: Vector[S], constant: Fraction) -> S | None:
-    """Return row.z + constant, or None if the row and the constant are zero."""
+    """Return the dot product row.z plus the constant. If the row and the constant are zero, return None."""
     total: S | None = d.rational(constant.numerator, constant.denominator) if constant else None
     for c, x in zip(row, z, strict=True):
         if c:

@@ -1,4 +1,4 @@
-"""Parts of a Hamiltonian: the formula of each part, and the exact flows that the compiler finds for it."""
+"""The parts of a Hamiltonian, with their formulas and their exact flows."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""The arithmetic with exact rational numbers. Each number is stored as a power series of degree 0."""
+"""Arithmetic with exact rational numbers. Each number is the constant term of a power series."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,9 @@ class Summand:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a Hamiltonian, written as the sum of ``summands`` with exact flows.
+    """A part of a Hamiltonian. The part is the sum of ``summands``, whose exact flows are known.
 
-    If the compiler knows no such sum, ``summands`` is empty, and ``reason`` says why.
+    If the exact flows are not known, ``summands`` is empty, and ``reason`` says why.
     """
 
     name: str
@@ -105,8 +105,8 @@ class Formula:
 
     @cached_property
     def orbit(self) -> Orbit:
-        """The sample points at which formulas of the problem are compared. Two formulas count as equal if
-        they agree at all these points.
+        """The sample points at which formulas of the problem are compared. If two formulas agree at all
+        sample points, the compiler treats them as equal.
         """
         return orbit_of(self.problem)
 
@@ -127,11 +127,11 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the Jacobian matrix of ``slopes`` with respect to the symbols ``names``. The matrix is
-        evaluated at the point (q, mu) with mu = 0.
+        """Return the Jacobian matrix of the formulas ``slopes`` at the point (q, mu) with mu = 0. The
+        derivatives are taken with respect to the symbols ``names``.
 
-        The result is None if an entry is not a rational number, or if a row of the matrix contains the time
-        or a parameter that is set at run time.
+        The result is None if an entry is not a rational number, or if an entry contains the time or a
+        parameter that is set at run time.
         """
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]
