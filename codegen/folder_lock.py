@@ -1,4 +1,4 @@
-"""A lock on a folder, so that only one process at a time writes to the folder.
+"""A lock on a folder. With the lock, only one process at a time writes to the folder.
 
 There is no lock file: the operating system locks the folder itself. If a process is killed, its lock ends.
 """
@@ -14,11 +14,11 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder during a ``with`` block, and yield True if the folder was locked.
+    """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
-    Several processes may have a ``shared`` lock at the same time. By default the lock is exclusive, and only
-    one process can have it. False is yielded if the file system has no locks. False is also yielded if
-    ``wait`` is false and another process has locked the folder.
+    Several ``shared`` locks can exist at the same time. By default the lock is exclusive: no second lock can
+    exist. By default the function waits for the lock. With ``wait=False`` it does not wait: it yields False
+    if another lock prevents the new one. If the file system has no locks, it also yields False.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

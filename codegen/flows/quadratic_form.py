@@ -1,4 +1,4 @@
-"""Quadratic forms with rational coefficients as sums of few squares."""
+"""Functions that write a quadratic form with rational coefficients as a sum of few squares."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ Matrix = Sequence[Sequence[Fraction]]
 """A symmetric matrix, given by its rows."""
 
 Square = tuple[Fraction, list[Fraction]]
-"""A pair of a number d and a vector e. It represents the quadratic form d (e.x)^2 of a vector x."""
+"""A pair (d, e) of a number d and a vector e. The pair represents the function d (e.x)^2 of a vector x."""
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return pairs (d, e) of a number and a vector, such that B is the sum of the matrices d e e^T.
+    """Return numbers d and vectors e as pairs (d, e). The sum of the matrices d e e^T is B.
 
     The pairs are computed by Lagrange's reduction of a quadratic form.
 
@@ -35,7 +35,8 @@ def squares(B: Matrix) -> list[Square]:
             k = diagonal[0]
             subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
             continue
-        # All diagonal entries are zero. A mixed term is split by 2 x y = ((x + y)^2 - (x - y)^2)/2.
+        # All diagonal entries are zero. A mixed term of the variables x and y is split into two squares:
+        # 2 x y = ((x + y)^2 - (x - y)^2)/2.
         i, j = next((i, j) for i in n for j in n if rest[i][j])
         rate = rest[i][j] / 2
         for sign in (1, -1):
@@ -49,15 +50,15 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a for which :func:`squares` writes B - a I as a sum of few terms d e e^T.
+    """Return a number a for which :func:`squares` returns few pairs for the matrix B - a I.
 
-    I is the identity matrix, d is a number, and e is a vector.
+    I is the identity matrix.
 
-    For a diagonal matrix B, the result is a diagonal entry that occurs more than once. If all diagonal
-    entries are different, the result is the middle one of the sorted entries.
+    If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal entries are
+    different, the result is the middle entry in ascending order.
 
-    For any other matrix, the candidates are the diagonal entries, and the numbers a for which a 2 x 2 minor
-    of B - a I is zero. The result is the candidate a for which the sum has the fewest terms.
+    If B is not diagonal, the function compares several candidates: the diagonal entries, and numbers a for
+    which B - a I may have rank one. The result is the candidate with the fewest pairs.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -71,7 +72,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # If B - a I has rank one, all its 2 x 2 minors are zero. The candidate is the number a
-                    # for which the minor of the rows i, k and the columns i, j is zero.
+                    # If B - a I has rank one, all its 2 x 2 minors are zero. For this candidate a, the
+                    # minor of the rows i, k and the columns i, j is zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

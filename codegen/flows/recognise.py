@@ -1,13 +1,19 @@
-"""Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
+"""Recognition: functions that find the exact flows of the parts of a Hamiltonian from their formulas.
 
-Each kind of flow has a function that examines the formula of a part. If the part has a flow of this kind, the
-function returns the part with its flow. If the part may have a flow of another kind, the function returns
-None. If the function finds that the part has no flow of any kind, it returns a part without a flow. The
-attribute ``reason`` of this part says why.
+For each kind of flow, a function examines the formula of a part. There are three results:
 
-The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
-quadratic functions of q and the momentum have linear flows. On groups other than R^n a quadratic function of
-the momentum is split into rotations (:mod:`codegen.flows.top`).
+- If the part has a flow of this kind, the function returns the part with its flow.
+- If another kind must be tried, the function returns None.
+- If no kind of exact flow is possible, the function returns a part without a flow. The attribute ``reason``
+  of this part says why.
+
+These are the kinds of flow:
+
+- The flow of a potential V(q) is a kick.
+- On an abelian group such as R^n, the flow of a function of the momentum is a drift.
+- On R^n, some quadratic functions of the position q and the momentum have a linear flow.
+- On non-abelian groups, a quadratic function of the momentum is split into rotations
+  (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -20,7 +26,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If the part depends on the time, return a :class:`Part` that has no flow. Otherwise return None."""
+    """If the formula depends on the time, return a part without a flow. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -32,16 +38,16 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The functions for the kinds of flow, in the order in which they are called for a part.
+"""One function for each kind of flow, in the order of the calls.
 
-The first result other than None is used.
+The first result that is not None is used.
 """
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:
     """Return the parts of the Hamiltonian of a problem with their exact flows.
 
-    If no flow of a part is known, the attribute ``reason`` of the part says why.
+    If no exact flow is known for a part, its attribute ``reason`` says why.
     """
     return tuple(_part(Formula(problem, name, root)) for name, root in problem.parts.items())
 

@@ -1,6 +1,6 @@
-"""Exact flows of the parts of the field or Hamiltonian of a lattice.
+"""Exact flows on a lattice. The field or the Hamiltonian of the lattice is a sum of parts.
 
-A flow changes the states of all sites together, so there is no formula for the flow of a single site.
+Each part has its own flow. A flow changes the states of all sites together.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of the two sets of pairs of neighbouring sites along an axis.
+"""The names of two sets of pairs of neighbours along an axis.
 
-In the set "even", the first site of each pair has an even index. In the set "odd", the first site of each
-pair has an odd index.
+A pair is "even" if the index of its first site is even. A pair is "odd" if the index of its first site is
+odd.
 """
 
 
 POTENTIAL = "potential"
-"""The name of the part that contains all energies that do not depend on momenta."""
+"""The name of the potential energy of a lattice. It includes the interaction of neighbouring sites."""
 
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
 
-    If the part couples neighbouring sites, only the pairs of one set in :data:`COLOURS` are coupled by this
-    flow. ``colour`` is the index of this set. If the part couples no sites, ``colour`` is 0.
+    If the part couples neighbouring sites, the flow couples only the pairs of one set. ``colour`` is the
+    index of this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -61,11 +61,14 @@ class SiteFlow(Flow):
 
 
 def site_flows(scene: Problem) -> list[Part]:
-    """Return the parts of the field or Hamiltonian of a lattice with their exact flows.
+    """Return the parts of a lattice scene and their exact flows.
 
-    If a part of the field couples neighbouring sites along an axis, it is split into two parts: one for each
-    set of pairs of sites in :data:`COLOURS`. These two parts have flows that do not commute. Parts of the
-    field that couple no sites are returned before the parts that couple sites.
+    For a Hamiltonian lattice, these are the parts of the Hamiltonian. For another lattice, these are the
+    parts of the field:
+
+    - The parts that couple no sites are first in the list.
+    - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one
+      for the odd pairs (:data:`COLOURS`). The flows of these two parts do not commute.
     """
     assert scene.sites is not None
     if scene.paired:
@@ -81,8 +84,7 @@ def site_flows(scene: Problem) -> list[Part]:
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
     """Return the parts of the Hamiltonian of a lattice with their exact flows.
 
-    The last part of the list contains all energies that do not depend on momenta. The flow of this part is a
-    kick.
+    The last part of the list is the potential energy. The flow of this part is a kick.
     """
     assert scene.sites is not None
     listed, total = [], scene.sites.force
@@ -92,8 +94,7 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick depends on the time if a force depends on the time. It also depends on the time if a state that
-    # the scene prescribes outside the lattice depends on the time.
+    # If a force or a prescribed state outside the lattice depends on the time, the kick also depends on it.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

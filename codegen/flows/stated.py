@@ -16,9 +16,9 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """A flow that the scene gives by formulas for (q, mu) after the time tau.
+    """A flow that the user gives in the scene. ``formulas`` are the formulas for (q, mu) after the time tau.
 
-    When the scene is read, the time derivatives of the formulas are compared with the field of the part.
+    If the time derivatives of the formulas are not equal to the field of the part, an error is raised.
     """
 
     formulas: tuple[Expr, ...]
@@ -26,14 +26,14 @@ class Stated(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q, mu) after the time tau. These values are computed by the formulas of the scene."""
+        """Return (q, mu) after the time tau, computed by the formulas of the scene."""
         state: Vector[S] = tuple(evaluate(self.formulas, d, {**values, TAU: tau}))
         return state[: len(q)], state[len(q) :]
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError, because the scene gives no formulas for the field of the part."""
+        """Raise ArithmeticError. The scene gives formulas for the flow, but not for the field."""
         raise ArithmeticError("the scene gives formulas for the flow of the part, but none for the field")
 
     def text(self) -> str:
@@ -42,6 +42,6 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with its flow if the scene gives formulas for this flow. Otherwise return None."""
+    """If the scene gives a flow for this part, return the part with this flow. Otherwise return None."""
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

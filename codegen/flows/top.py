@@ -4,12 +4,13 @@ P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Le
 matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
 numbers, and e_k are fixed vectors.
 
-- The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
-- The flow of c P.P/2 is a rotation about the momentum, if the adjoint action preserves the dot product. This
-  rotation commutes with all turns. If the dot product is not preserved, the sum with c = 0 is used.
+- The flow of d_k (e_k.P)^2/2 is a rotation about the axis e_k. This rotation is called a turn.
+- If the adjoint action preserves the dot product, the flow of c P.P/2 is a rotation about the momentum. This
+  rotation commutes with all turns.
+- If the adjoint action does not preserve the dot product, c is 0.
 
-With at most one turn, as for a symmetric top, all these flows commute, and their composition is the exact
-flow of the function. With more turns, as for an asymmetric top, the turns do not commute with each other.
+If there is at most one turn, as for a symmetric top, all flows commute. Their composition is the exact flow
+of the function. The turns of an asymmetric top do not commute with each other.
 """
 
 from __future__ import annotations
@@ -28,10 +29,10 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Split a part that is a quadratic function of the momentum into rotations.
+    """Split a quadratic function of the momentum into rotations.
 
-    Return None if the group is abelian, because an abelian group has no rotations. If the part is not a
-    quadratic function of the momentum, return a :class:`Part` that has no flow.
+    If the group is abelian, it has no rotations, and the result is None. If ``formula`` is not a quadratic
+    function of the momentum with rational coefficients, the result is a part without a flow.
     """
     if formula.problem.group.abelian:
         return None
@@ -47,7 +48,7 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if ``formula`` is equal to P.(B P)/2 + w.P plus a constant number.
+    """Return True if ``formula`` and P.(B P)/2 + w.P differ only by a constant.
 
     If ``body`` is true, P = Ad*_q mu is the momentum in the body frame. Otherwise P = mu is the momentum in
     the space frame.
@@ -85,15 +86,14 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with every turn. It can therefore be composed with the
-        # first turn and needs no summand of its own.
+        # The rotation about the momentum commutes with the first turn. Both flows form one summand.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return True if the adjoint action preserves the dot product of elements of the Lie algebra."""
+    """Return True if the adjoint action preserves the dot product on the Lie algebra."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero
@@ -101,10 +101,10 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Include the linear term w.P in a list of turns, where P is the momentum.
+    """Return the turns for the sum of a quadratic form and w.P. Here P is the momentum.
 
-    If the axis of a turn is parallel to the vector w, the term w.P becomes the offset of this turn.
-    Otherwise a turn about the axis w is appended to the list.
+    The list ``turns`` contains the turns for the quadratic form. If the axis of a turn is parallel to the
+    vector w, w.P changes the offset of this turn. Otherwise a turn about w is appended.
     """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)

@@ -14,14 +14,15 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Turn(Flow):
-    """A turn about the fixed axis e: the flow of H = r (e.P)^2/2 + c e.P, where P is the momentum.
+    """A rotation about the fixed axis e: the flow of H = r (e.P)^2/2 + c e.P, where P is the momentum.
 
-    The numbers r and c are the attributes ``rate`` and ``offset``. The component e.P is conserved, so the
+    The attributes are e = ``axis``, r = ``rate`` and c = ``offset``. Because e.P is conserved, the rotation
     angle after the time tau is tau (r e.P + c).
 
-    - If the axis is fixed in the body, P = Ad*_q mu. The turn multiplies q from the right, and mu is
-      constant.
-    - If the axis is fixed in space, P = mu. The turn acts on q and mu from the left.
+    - If the axis is fixed in the body (``body`` is true), P = Ad*_q mu. The flow multiplies q from the right,
+      and mu is constant.
+    - If the axis is fixed in space, P = mu. The flow multiplies q from the left and changes mu by the
+      coadjoint action.
     """
 
     axis: tuple[Fraction, ...]
@@ -56,8 +57,8 @@ class Turn(Flow):
         momentum in the frame in which the axis is fixed.
 
         - If the axis is fixed in space, xi = s e and n = 0.
-        - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. The momentum mu is then constant,
-          because mu' = n - ad*_xi mu = 0.
+        - If the axis is fixed in the body, xi = s Ad_q e and n = ad*_xi mu. Then mu is constant, because
+          mu' = n - ad*_xi mu = 0.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)

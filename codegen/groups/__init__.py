@@ -1,9 +1,10 @@
-"""Lie groups and their actions. The arguments of their methods may be floats, power series or expressions
-(:mod:`codegen.ir.domain`).
+"""Lie groups and their actions. Both compute with floats, power series or expressions (see
+:mod:`codegen.ir.domain`).
 
-Each group has its own file, and each action has its own file in ``actions``. To define a group or an action
-in your own module, write a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`.
-A scene can use your class. :func:`register` adds your class to the list of groups or to the list of actions.
+Each group has its own file, and each action has its own file in ``actions``. To define your own group, write
+a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`). To define your own action, write a subclass
+of :class:`Action`. You can use the class in a scene (a problem). :func:`register` adds the class to the list
+of groups or to the list of actions.
 """
 
 from __future__ import annotations
@@ -97,8 +98,8 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""For each module of this package, the names of its group classes. The command ``orderconds list groups``
-lists these classes.
+"""A map from each module of this package to the names of its group classes. ``orderconds list groups`` prints
+these classes.
 """
 
 lazy(__name__, base=("LieGroup",), **LISTED)
@@ -114,10 +115,14 @@ def register(cls: Registered) -> Registered:
     """Register the class of a group or the class of an action, and return the class.
 
     A group class is added to the list of groups, and an action class is added to the list of actions. The
-    function can be used as a decorator. A scene (a problem) can use a class without registering it. If two
-    classes with the same name are registered, the second replaces the first. :class:`SceneError` is
-    raised in three cases: the class is neither a group nor an action, it does not implement all abstract
-    methods, or it has the name of a class of this package.
+    function can be used as a decorator. A scene (a problem) can also use an unregistered class. If you
+    register a second class with the same name, it replaces the first class.
+
+    :class:`SceneError` is raised in three cases:
+
+    - The class is neither a group nor an action.
+    - An abstract method is not implemented.
+    - A class of this package already has the name.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -132,7 +137,7 @@ def register(cls: Registered) -> Registered:
 
 
 def unregister(cls: type[LieGroup] | type[Action]) -> None:
-    """Remove a class that :func:`register` added."""
+    """Remove a class from the list of groups or the list of actions. :func:`register` added this class."""
     from codegen.groups.actions import ACTIONS
     from codegen.groups.base import LieGroup
 

@@ -1,4 +1,4 @@
-"""Abelian groups: Lie brackets vanish, and the adjoint action is trivial."""
+"""Abelian groups. The Lie bracket is zero, and the adjoint action is trivial."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from codegen.ir.domain import Domain
 
 
 class Abelian(LeftTranslation):
-    """A group in which all elements commute. The maps ad and ad* are zero, and Ad, Ad* and dexp* are the
+    """A group with commuting elements. The maps ad and ad* are zero. The maps Ad, Ad* and dexp* are the
     identity.
     """
 

@@ -1,4 +1,4 @@
-"""Affine maps of a vector space, given by matrices with the last row (0, ..., 0, 1)."""
+"""Affine maps of a vector space. The matrix of an affine map has the last row (0, ..., 0, 1)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ class AffineAction(Action):
 
     An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c.
 
-    For example, consider the equation z' = L z + N(z) with a constant matrix L. In a step of the Lie-Euler
-    method, c is N(z) at the beginning of the step. This is the exponential Euler method. A step of size h
-    maps z to exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w.
+    For example, consider the equation z' = L z + N(z) with a constant matrix L. The Lie-Euler method takes
+    c = N(z), where z is the state at the beginning of the step. A step of size h maps z to
+    exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w. This method is known as the exponential Euler
+    method.
     """
 
     name = "affine maps"
@@ -34,7 +35,7 @@ class AffineAction(Action):
         for k, x in enumerate(basis):
             if any(matrices.hat(d, x)[n * (n - 1) :]):
                 raise SceneError(
-                    f"{group.name} has no affine action: the last row of its basis element {k} is not zero",
+                    f"{group.name} has no affine action: basis matrix {k} has a nonzero last row",
                     where=where,
                     expected="a group of matrices [[A, b], [0, 1]]",
                     hint="use Linear() for linear maps of columns",

@@ -31,7 +31,7 @@ class Action(ABC):
     on_itself: ClassVar[bool] = False
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group does not admit this action."""
+        """Raise :class:`codegen.errors.SceneError` if this action cannot be used with the group."""
         self.require(group, self.needs, where)
 
     def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
@@ -46,8 +46,9 @@ class Action(ABC):
             )
 
     def point_size(self, group: LieGroup) -> int | None:
-        """Return the number of coordinates of a point. Return None if the class of the action does not define
-        this number.
+        """Return the number of coordinates of a point, or None if the number is not known.
+
+        By default the number is not known.
         """
         return None
 
@@ -75,13 +76,13 @@ class Action(ABC):
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
 
-        By default, the result is y. This is sufficient if the orbit is an open subset of the manifold. Then a
-        point with a small error is still on the orbit.
+        By default, the result is y. This is sufficient if the orbit is an open subset of the manifold: a
+        point with a small error is still on an open orbit.
         """
         return y
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x).y. By default, the method computes exp(x) and applies it to y. A subclass may use a
-        cheaper formula.
+        """Return exp(x).y. By default, exp(x) is computed and then acts on y. A subclass may override this
+        method with a cheaper formula.
         """
         return self.act(d, group, group.exp(d, x), y)

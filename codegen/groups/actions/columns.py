@@ -11,10 +11,10 @@ from codegen.ir.domain import Domain
 
 
 class Columns(Action):
-    """Matrices acting on n x k matrices, g.Y = g Y.
+    """The matrices g act on n x k matrices Y by g.Y = g Y.
 
-    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``. If the
-    columns of Y stay orthonormal, use :class:`Stiefel`.
+    A point contains the entries of the matrix Y row by row. The number of columns is k = ``columns``. For
+    matrices with orthonormal columns, use :class:`Stiefel`.
     """
 
     name = "linear maps of columns"

@@ -10,12 +10,12 @@ from codegen.ir.domain import Domain
 
 
 class Conjugation(Action):
-    """Matrices acting on n x n matrices by g.P = g P g^-1. Toda's lattice and other isospectral flows
+    """The matrices g act on n x n matrices P by g.P = g P g^-1. Isospectral flows, such as Toda's lattice,
     use this action.
 
     A point contains the entries of the matrix P row by row. The matrices g P g^-1 and P have the same
-    eigenvalues. If the group is SO(n) and P is an orthogonal projection of rank k, the orbit of P is a
-    Grassmann manifold.
+    eigenvalues. For the group SO(n), the orbit of an orthogonal projection P of rank k is a Grassmann
+    manifold.
     """
 
     name = "conjugation"

@@ -27,7 +27,7 @@ class DiagonalAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if one of the actions cannot be used with the group.
 
-        The error is also raised if an action does not determine the number of coordinates of its points.
+        The error is also raised if the method ``point_size`` of an action returns None.
         """
         for action in self.actions:
             action.check(group, where)
@@ -39,8 +39,8 @@ class DiagonalAction(Action):
             size = action.point_size(group)
             if size is None:
                 raise SceneError(
-                    f"the action {action.name}, in a diagonal action, does not define its number of "
-                    "coordinates",
+                    f"the action {action.name}, in a diagonal action, does not define the number of "
+                    "coordinates of a point",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",
@@ -60,7 +60,7 @@ class DiagonalAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifolds that contain y1, y2, ..., where y = (y1, y2, ...)."""
+        """Return the equations of y1, then the equations of y2, and so on, for y = (y1, y2, ...)."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -35,8 +35,8 @@ class FactorwiseAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the actions cannot be used with the group.
 
-        The group must be a direct product with one factor for each action. It must be possible to use each
-        action with its factor. Each action must determine the number of coordinates of its points.
+        The group must be a direct product with one factor for each action. Each action must pass its
+        own ``check`` with its factor. The method ``point_size`` of each action must return a number.
         """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
@@ -59,8 +59,8 @@ class FactorwiseAction(Action):
             size = action.point_size(factor)
             if size is None:
                 raise SceneError(
-                    f"the action {action.name} of the factor {factor.name} does not define its number of "
-                    "coordinates",
+                    f"the action {action.name} of the factor {factor.name} does not define the number of "
+                    "coordinates of a point",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",
@@ -69,16 +69,16 @@ class FactorwiseAction(Action):
         return sizes
 
     def _split(self, group: LieGroup, y: Vector[S]) -> list[Vector[S]]:
-        """Split the coordinates y of a point (y1, y2, ...) into the coordinates of y1, y2, ..."""
+        """Split the tuple y into the coordinates of y1, the coordinates of y2, and so on."""
         sizes = self._sizes(group)
         return [tuple(y[end - n : end]) for end, n in zip(accumulate(sizes), sizes, strict=True)]
 
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Return operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), ... in one tuple.
+        """Compute operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), and so on.
 
-        Here x = (x1, x2, ...) and y = (y1, y2, ...).
+        Here x = (x1, x2, ...) and y = (y1, y2, ...). The results are joined to one tuple of coordinates.
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
@@ -91,7 +91,7 @@ class FactorwiseAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifolds that contain y1, y2, ..., where y = (y1, y2, ...)."""
+        """Return the equations of y1, then the equations of y2, and so on, for y = (y1, y2, ...)."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 
