@@ -13,8 +13,8 @@ class Affine(MatrixGroup):
     """The group of the invertible affine maps y -> A y + b, where y is in R^n. An element is the (n + 1) x
     (n + 1) block matrix [[A, b], [0, 1]].
 
-    Each basis element of the algebra is a matrix whose only non-zero entry is a 1 in one of the first n rows.
-    The basis is ordered row by row.
+    Each basis element of the algebra is a matrix with one entry 1 in the first n rows. All other entries are
+    zero. The basis is ordered row by row.
     """
 
     def __init__(self, n: int) -> None:
@@ -23,7 +23,7 @@ class Affine(MatrixGroup):
         super().__init__(f"Aff({n})", basis)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair of a text and a residual for each entry of the last row of g.
+        """Return one pair (name, residual) for each entry of the last row of g.
 
         If g is an element of the group, the last row is (0, ..., 0, 1), and the residuals are zero.
         """

@@ -1,9 +1,9 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars. An element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. Groups act
-from the left, tangent vectors are right-trivialised, and the bracket of matrices is [A, B] = AB - BA (see
-:mod:`orderconds`).
+flat tuple of ``dim`` scalars. These scalars are the coordinates: the docstring of each group class describes
+them. Groups act from the left, tangent vectors are right-trivialised, and the bracket of matrices is
+[A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument d of each operation is a domain: it defines the type of the scalars and the functions of
 scalars (:mod:`codegen.ir.domain`). An operation uses only ``+ - * /`` on the scalars, constants from
@@ -12,10 +12,11 @@ scalars (:mod:`codegen.ir.domain`). An operation uses only ``+ - * /`` on the sc
 
 To define a group, inherit :class:`LieGroup` and write its five abstract methods. These methods are enough for
 scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
-convergence tests. A scene with a Hamiltonian also needs the coadjoint action
-(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional: they make emitted
-code shorter, or are needed for special computations such as the Jacobian of a step.
-:func:`codegen.groups.register` adds the class to the list of groups.
+convergence tests. The function :func:`codegen.groups.register` adds the class to the list of groups.
+
+A group may have additional operations, the capabilities (:mod:`codegen.groups.capabilities`). Scenes with a
+Hamiltonian need the capability ``Coadjoint``. Other capabilities make emitted code shorter, or are needed for
+special computations such as the Jacobian of a step.
 """
 
 from __future__ import annotations
@@ -42,8 +43,8 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` is a text for the headers of emitted code. It describes the order of the coordinates, for
-      example ``, row by row``.
+    - ``layout`` describes the order of the coordinates. It is the end of a phrase in the headers of emitted
+      code, such as ``, row by row`` in ``element of SO(3), row by row``.
     """
 
     name: str
@@ -52,8 +53,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. A scene can be converted to
-    equations on R^n (:mod:`codegen.scene.classical_forms`). The names of these equations contain the noun.
+    """A noun for the coordinates of an element, such as ``unit quaternion``. It is printed if a scene is
+    converted to equations on R^n (:mod:`codegen.scene.classical_forms`).
     """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
@@ -74,8 +75,8 @@ class LieGroup(ABC):
         t) x).
 
         The formula must also be valid at x = 0, for all types of scalars. Therefore it must not divide by the
-        length of x. For example, let r be the length of x. For sin(r)/r, use the function stumpff1 with
-        stumpff1(r^2) = sin(r)/r, which is also defined at r = 0.
+        length r of x. For example, replace sin(r)/r by stumpff1(r^2). The function stumpff1 is also defined
+        at 0.
         """
 
     @abstractmethod
@@ -92,7 +93,7 @@ class LieGroup(ABC):
         """Return x.g, the derivative of exp(eps x) g at eps = 0, in the coordinates of g."""
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group, as pairs of a name and a residual.
+        """Return the equations of the group. Each equation is a pair (name, residual).
 
         The residuals are computed from the coordinates g. If g is an element of the group, all residuals are
         zero.
@@ -107,8 +108,8 @@ class LieGroup(ABC):
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t e_k) for the basis element e_k of the algebra. A subclass may override this method by
-        a shorter formula.
+        """Return exp(t e_k), where e_k is a basis element of the algebra. A subclass may use a shorter
+        formula.
         """
         zero: S = d.rational(0)
         return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))
@@ -118,20 +119,19 @@ class LieGroup(ABC):
         return self.mul(d, self.exp(d, x), g)
 
     def variants(self) -> Sequence[LieGroup]:
-        """Return implementations of this group that differ only in :meth:`expmul`. The first one is the
-        default.
+        """Return implementations of this group that differ only in :meth:`expmul`.
 
-        The compiler compiles a step with each implementation, and uses the step with the shortest estimated
+        The compiler compiles a step with each implementation. It chooses the step with the shortest estimated
         time.
         """
         return (self,)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group if it has the operations of the class ``capability``, otherwise None."""
+        """Return this group if it has the operations of the class ``capability``. Otherwise return None."""
         return self if isinstance(self, capability) else None
 
     def require(self, capability: type[C], where: str = "") -> C:
-        """Return this group if it has the operations of the class ``capability``, otherwise raise
+        """Return this group if it has the operations of the class ``capability``. Otherwise raise
         :class:`SceneError`.
         """
         offered = self.offers(capability)
@@ -151,7 +151,7 @@ class LieGroup(ABC):
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return the symbols of the coordinates as a sympy column, for formulas of a scene."""
+        """Return the coordinates of an element as a sympy column of :meth:`symbols`."""
         from sympy import Matrix
 
         return Matrix(self.symbols(name))

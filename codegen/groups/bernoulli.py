@@ -1,4 +1,4 @@
-"""The truncated series of dexp^{-1}_x: the sum of B_k/k! ad_x^k, where B_k are the Bernoulli numbers."""
+"""The truncated series of dexp^{-1}_x. It is a sum of B_k/k! ad_x^k with the Bernoulli numbers B_k."""
 
 from __future__ import annotations
 

@@ -1,10 +1,11 @@
-"""Capabilities: operations that some groups offer beyond the operations of every group.
+"""Capabilities: additional operations that only some groups have.
 
 A group declares a capability by inheriting the class of the capability. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``,
-because its result may be wrong for a direct product. The class of direct products inherits several
-capabilities, but a product has one of them only if all its factors have it.
+returns None, and ``require`` raises an error with the name of the capability.
+
+Do not use ``isinstance``, because its result may be wrong for a direct product. The class of direct products
+inherits several capabilities. A direct product lacks a capability if one of its factors lacks it.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ ad_x, and v is a vector.
 
 
 class Coadjoint(LieGroup):
-    """The adjoint and coadjoint action. This capability is needed by variational methods, and by
-    scenes with a Hamiltonian on T*G.
+    """The adjoint action and the coadjoint action. Variational methods and scenes with a Hamiltonian on T*G
+    need this capability.
 
     The argument g is an element of the group, x is an element of the algebra, and mu is an element of the
     dual of the algebra. The pairing <mu, x> is the dot product of the coordinates of mu and x.
@@ -65,17 +66,19 @@ class Coadjoint(LieGroup):
         """
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Apply the transpose of :meth:`dexpinv` to mu. With the Bernoulli numbers B_k, the result is the sum
-        of B_k/k! (ad*_x)^k mu for k = 0, ..., order.
+        """Return the sum of B_k/k! (ad*_x)^k mu for k = 0, ..., order.
+
+        B_k are the Bernoulli numbers with B_1 = -1/2. This map is the transpose of :meth:`dexpinv`.
         """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return the covector p with <p, v> = <mu, D v> for all v in the algebra.
 
-        D is the derivative of dexpinv(x, y, order) with respect to x. Let B_k be the Bernoulli numbers, and
-        let z_ik = ad_x^{k-1-i} y. The covector p is the sum of the terms -B_k/k! ad*_{z_ik} (ad*_x)^i mu for
-        all i and k with 0 <= i < k <= order (eq. 3.16 of H. Marthinsen's thesis).
+        The linear map D is the derivative of dexpinv(x, y, order) with respect to x.
+
+        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over 0 <= i < k <= order. Here z is
+        ad_x^{k-1-i} y, and B_k are the Bernoulli numbers. The formula is eq. 3.16 of H. Marthinsen's thesis.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -92,9 +95,9 @@ class Coadjoint(LieGroup):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return the momentum of the product exp(x, n) (q, mu) in T*G, which does not depend on q.
+        """Return the momentum of the product of exp(x, n) and (q, mu) in the group T*G.
 
-        The momentum is Ad*_{exp(-x)} mu + dexp*_{-x} n.
+        The momentum is Ad*_{exp(-x)} mu + dexp*_{-x} n. It does not depend on q.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -103,31 +106,27 @@ class Coadjoint(LieGroup):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) on T*G. The first component is exp(x) q, and the second component is the
-        result of :meth:`transport`.
+        """Return the product of exp(x, n) and (q, mu) in the group T*G.
+
+        The first component is exp(x) q. The second component is the result of :meth:`transport`.
         """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
 
 class RightTrivialisation(LieGroup):
-    """The conversion of tangent vectors to elements of the Lie algebra. The Jacobian of a step needs this
-    conversion.
-    """
+    """The inverse of the map from x to the tangent vector x.g. The Jacobian of a step needs this inverse."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
     @abstractmethod
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element x of the algebra with v = x.g, where v is a tangent vector at g.
-
-        The method satisfies rate(velocity(x, g), g) = x.
-        """
+        """Return the element x of the algebra with velocity(x, g) = v. Here v is a tangent vector at g."""
 
 
 class LeftTranslation(Coadjoint):
-    """Left translations of velocities, and the equations of the group as replacement rules.
+    """Left-translated velocities g.x, the inverse of Ad_g, and the equations of the group.
 
-    A scene needs this capability if it describes velocities or momenta in the body frame.
+    Scenes with velocities or momenta in the body frame need this capability.
     """
 
     provides: ClassVar[str] = "left translation of velocities"
@@ -136,7 +135,7 @@ class LeftTranslation(Coadjoint):
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations of the group as replacement rules.
 
-        Each rule replaces a product of two coordinates by a polynomial that has the same value on the group.
+        Each rule replaces a product of two coordinates by a polynomial. Both are equal on the group.
         ``q`` contains the names of the coordinates of an element.
         """
 
@@ -150,9 +149,9 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x). In this product, x is an element of the algebra in the body frame.
+    """The product g exp(x), where x is expressed in the body frame.
 
-    The compiler needs this product if it derives an integrator in the body frame.
+    To derive an integrator in the body frame, the compiler needs this product.
     """
 
     provides: ClassVar[str] = "body frame"
@@ -164,16 +163,14 @@ class BodyFrame(LeftTranslation):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Closed forms of functions of ad_x. The functions are products of exp, dexp and dexp^{-1}. When such a
-    product is applied to a vector, the result is a linear combination of a few brackets.
-    """
+    """Functions of ad_x in closed form. The functions are products of exp, dexp and dexp^{-1}."""
 
     provides: ClassVar[str] = "closed form of functions of ad"
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W(ad_x) v, where W is the product of the functions in ``word``. If ``dual`` is true, ad*_x
-        replaces ad_x.
+        """Return W(ad_x) v, where W is the product of the factors in ``word``. If ``dual`` is true, return
+        W(ad*_x) v.
         """
 
     @abstractmethod
@@ -189,9 +186,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        Some groups compute sums of f v without the factor W(ad_x). If the function ``total`` is given, it
-        computes these sums: ``total(indices)`` returns the sum of f v over the terms with these indices. A
-        caller passes ``total`` if it knows a short formula for such sums.
+        The method may need the sum of f v over some of the terms. A caller that knows a short formula for
+        this sum passes the function ``total``. Its argument contains the indices of the terms.
         """
 
 
@@ -236,10 +232,10 @@ class Inverse(LieGroup):
 
 
 class CayleyMap(LieGroup):
-    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. Here 1 is the
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and the inverse of its differential. Here 1 is the
     identity, and x is a matrix or a quaternion.
 
-    If the algebra contains x^3 for all elements x, then cay(x) is an element of the group.
+    The algebra must contain the cube x^3 of each of its elements x. Then cay(x) is an element of the group.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -310,7 +306,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return [Symbol(f"{name}{i}{mark}{j}", real=True) for i in rows for j in rows]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return :meth:`symbols` as a square sympy matrix."""
+        """Return the symbols of the entries as a square sympy matrix."""
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
@@ -337,8 +333,7 @@ class Covered(LieGroup):
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The image is computed by polynomials in q. The result is wrong if q violates the equations of the
-        cover.
+        The element q must satisfy the equations of the cover. The image is a polynomial in q.
         """
 
     @abstractmethod
@@ -373,17 +368,17 @@ class Covered(LieGroup):
 
 
 class Rotations(MatrixElements):
-    """Elements are rotations: they preserve the length of a column."""
+    """Each element is a rotation matrix."""
 
     provides: ClassVar[str] = "rotation of vectors"
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y. Some groups compute it without the matrix exp(x)."""
+        """Return exp(x) y for a column y. Some groups do not compute the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
-    """Elements act on the points of a vector space. The action may be nonlinear."""
+    """The group acts on the points of a vector space. An element may rotate and translate a point."""
 
     provides: ClassVar[str] = "motion of points"
     point_size: int
@@ -424,18 +419,15 @@ class CotangentBundle(LieGroup):
 
     @abstractmethod
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return the image of a covector under the canonical Poisson bivector of T*G at z. The image is an
-        element of the algebra.
+        """Return the image of ``covector`` under the canonical Poisson bivector of T*G at the point z.
 
-        If the covector is the right-trivialised differential of a Hamiltonian, the image is the
-        right-trivialised Hamiltonian vector field.
+        The image is an element of the algebra of T*G. If ``covector`` is the right-trivialised differential
+        of a Hamiltonian, the image is the right-trivialised Hamiltonian vector field.
         """
 
 
 class Projection(LieGroup):
-    """A projection onto the group. It reduces the errors of coordinates that nearly satisfy the equations of
-    the group.
-    """
+    """A projection onto the group. It reduces small violations of the equations of the group."""
 
     provides: ClassVar[str] = "projection onto the group"
 
@@ -453,8 +445,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of coordinate indices. The coordinates in one set can be computed from the coordinates
-        outside this set.
+        """Return sets of coordinate indices. The coordinates in each set are functions of the coordinates
+        outside the set.
         """
 
     @abstractmethod
@@ -466,7 +458,7 @@ class DependentCoordinates(LieGroup):
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:
-    """Return the sum of c x over the terms (c, x), or the empty tuple if there are no terms."""
+    """Return the sum of c x over the terms (c, x). Without terms, return the empty tuple."""
     total: Vector[S] = ()
     for c, x in terms:
         factor: S = d.rational(c.numerator, c.denominator)

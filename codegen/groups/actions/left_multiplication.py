@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class LeftMultiplication(Action):
-    """A group acting on itself, g.y = g y. For the group R^n, this is the translation g.y = g + y."""
+    """A group acting on itself by g.y = g y. For the group R^n, this is the translation g.y = g + y."""
 
     name = "left multiplication"
     on_itself = True
@@ -20,7 +20,7 @@ class LeftMultiplication(Action):
         return group.size
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group."""
+        """Return the equations of the group as pairs (name, residual)."""
         return group.laws(d, y)
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -32,7 +32,7 @@ class LeftMultiplication(Action):
         return group.expmul(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y projected onto the group. If the group has no projection, return y."""
+        """Return the projection of y onto the group. If the group has no projection, return y."""
         projection = group.offers(Projection)
         return y if projection is None else projection.project(d, y)
 

@@ -10,10 +10,10 @@ from codegen.ir.domain import Domain
 
 
 class Motion(Action):
-    """Rigid motions acting on points z. The motion g rotates z by R and translates it by a: g.z = R z + a.
-    SE(2) acts on the plane, and SE(3) acts on three-dimensional space.
+    """Rigid motions acting on points z by g.z = R z + a, with a rotation R and a translation a.
 
-    For a general semidirect product, g.z = R z + a with a linear map R.
+    SE(2) acts on the plane, and SE(3) acts on three-dimensional space. For other semidirect products, R is a
+    linear map.
     """
 
     name = "rigid motion"
@@ -24,9 +24,9 @@ class Motion(Action):
         return group.require(PointMotions).point_size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return R y + a, where g is the linear map R followed by the translation by a."""
+        """Return R y + a. Here R is the linear part of g, and a is the translation of g."""
         return group.require(PointMotions).move(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the velocity of the point y under the motion exp(t x) at t = 0."""
+        """Return x.y, the derivative of exp(eps x).y at eps = 0."""
         return group.require(PointMotions).point_velocity(d, x, y)

@@ -10,12 +10,10 @@ from codegen.ir.domain import Domain
 
 
 class RightMultiplication(Action):
-    """A group acting on itself from the right, g.y = y g^-1.
+    """A group acting on itself by g.y = y g^-1. This is a left action: (g k).y = g.(k.y).
 
-    Because of the inverse this is a left action: (g k).y = g.(k.y). The velocity is x.y = -y x.
-
-    To integrate the equation y' = y F(y), use the field f = -F. For example, y is the attitude of a body, and
-    F(y) is the angular velocity in the body frame.
+    The velocity is x.y = -y x. Therefore the equation y' = y F(y) has the field f = -F. For example, y is the
+    attitude of a body, and F(y) is the angular velocity in the body frame.
     """
 
     name = "right multiplication"
@@ -23,7 +21,7 @@ class RightMultiplication(Action):
     on_itself = True
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group has no method for g^-1 or for Ad_g."""
+        """Raise :class:`codegen.errors.SceneError` if the group cannot compute g^-1 and Ad_g."""
         self.require(group, Inverse, where)
         self.require(group, Coadjoint, where)
 
@@ -32,7 +30,7 @@ class RightMultiplication(Action):
         return group.size
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group."""
+        """Return the equations of the group as pairs (name, residual)."""
         return group.laws(d, y)
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -44,7 +42,7 @@ class RightMultiplication(Action):
         return group.mul(d, y, group.exp(d, tuple(-a for a in x)))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y projected onto the group. If the group has no projection, return y."""
+        """Return the projection of y onto the group. If the group has no projection, return y."""
         projection = group.offers(Projection)
         return y if projection is None else projection.project(d, y)
 
@@ -53,7 +51,6 @@ class RightMultiplication(Action):
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))
-        # The product y x is equal to (Ad_y x) y, because Ad_y x = y x y^-1. The method ``velocity`` computes
-        # (Ad_y x) y.
+        # The product y x is equal to (Ad_y x) y, because Ad_y x = y x y^-1.
         moved = group.require(Coadjoint).Ad(d, y, x)
         return tuple(-a for a in group.velocity(d, moved, y))

@@ -6,6 +6,6 @@ from codegen.groups.actions.linear import Linear
 
 
 class Rotation(Linear):
-    """Rotations acting on column vectors. SO(3) acts on spheres about the origin of R^3."""
+    """Rotations acting on column vectors. For example, SO(3) acts on the spheres about the origin of R^3."""
 
     name = "rotation"

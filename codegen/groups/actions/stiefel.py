@@ -19,10 +19,10 @@ class Stiefel(Columns):
     name = "rotation of orthonormal columns"
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group does not preserve orthonormal columns.
+        """Raise :class:`codegen.errors.SceneError` if the group does not admit this action.
 
-        This is the case if a matrix of the algebra is not skew. The error is also raised if a point has
-        more columns than rows, because its columns are then linearly dependent.
+        The group must preserve orthonormal columns. Therefore the matrices of the algebra must be skew. A
+        point must not have more columns than rows, because orthonormal columns are linearly independent.
         """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
@@ -36,7 +36,7 @@ class Stiefel(Columns):
                     "algebra are not skew",
                     where=where,
                     expected="a group of orthogonal matrices",
-                    hint=f"use Columns({self.columns}) for other matrices",
+                    hint=f"use Columns({self.columns}), which accepts all groups of matrices",
                 )
         if self.columns > n:
             raise SceneError(
@@ -51,9 +51,9 @@ class Stiefel(Columns):
         return [[dot(a, b) for b in columns] for a in columns]
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation Y^T Y = I entry by entry, where I is the unit matrix.
+        """Return the equation Y^T Y = I as one pair (name, residual) for each entry. I is the unit matrix.
 
-        The matrix Y^T Y is symmetric. Therefore the entries above the diagonal are left out.
+        The entries above the diagonal are omitted, because Y^T Y is symmetric.
         """
         gram, one = self._gram(y), d.rational(1)
         return tuple(
@@ -71,7 +71,7 @@ class Stiefel(Columns):
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
         # The result is computed as Y + Y E/2 with E = I - Y^T Y. If the columns of Y are almost orthonormal,
-        # the term Y E/2 is small. Then the rounding errors of this term are negligible.
+        # the term Y E/2 is small, and its rounding errors are negligible.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]
         return tuple(
