@@ -25,8 +25,8 @@ def check_size(name: str, n: object, least: int) -> None:
 def check_factor(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not a group.
 
-    In the error message, the text ``name`` describes the object that is constructed from the group, such as
-    "a product".
+    ``name`` is a text for the error message, such as "a product". It describes the object that has ``group``
+    as a factor or base.
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

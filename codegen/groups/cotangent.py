@@ -13,11 +13,11 @@ from codegen.ir.domain import Domain
 
 class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
-    coordinates of mu. This group is the magnetic extension of G (Arnold and Khesin I.10.B).
+    coordinates of mu. Arnold and Khesin (I.10.B) call T*G the magnetic extension of G.
 
-    An element of the algebra is a pair (xi, n). A field f with f(q, mu) = (xi, n) gives the equations
-    q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis). Here xi.q is the derivative of
-    exp(eps xi) q at eps = 0. :class:`SceneError` is raised if G has no coadjoint action.
+    An element of the algebra is a pair (xi, n). Let xi.q be the derivative of exp(eps xi) q at eps = 0. If a
+    field f has the value f(q, mu) = (xi, n), its equations are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of
+    H. Marthinsen's thesis). :class:`SceneError` is raised if G has no coadjoint action.
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
@@ -36,8 +36,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
-        If x has ``size`` coordinates, x is treated as an element of the group, otherwise as an element of the
-        algebra.
+        The number of coordinates decides: an element of the group has ``self.size`` coordinates.
         """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
@@ -64,7 +63,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.cotangent_expmul(d, xi, n, q, mu)
 
     def variants(self) -> Sequence[Cotangent]:
-        """Return the groups T*G for all implementations of the base group G."""
+        """Return one group T*G for each implementation in ``G.variants()``."""
         return tuple(Cotangent(base) for base in self.base.variants())
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -87,7 +86,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``, otherwise None.
 
-        The group T*G has the capability Projection only if G has it. The same is true for Inverse.
+        T*G has the operations of Projection only if G has them. T*G has the operations of Inverse only if G
+        has them.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
@@ -104,14 +104,14 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations that the base group has for q, where g = (q, mu).
+        """Return the equations of the base group for q, the first component of g = (q, mu).
 
         There are no equations for mu, because mu may be any vector.
         """
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g = (xi.q, n - ad*_xi mu), where x = (xi, n) and g = (q, mu)."""
+        """Return (xi.q, n - ad*_xi mu), the velocity of g = (q, mu) for x = (xi, n)."""
         (xi, n), (q, mu) = self._split(x), self._split(g)
         pairs = zip(n, self.base.adt(d, xi, mu), strict=True)
         return self.base.velocity(d, xi, q) + tuple(a - b for a, b in pairs)

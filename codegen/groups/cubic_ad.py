@@ -14,14 +14,14 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The value of the argument ``word`` of :meth:`CubicAd.series` for the function dexp_x."""
+"""The function dexp_x as an argument ``word`` of :meth:`CubicAd.series`."""
 
 
 class CubicAd(ClosedFormSeries):
-    """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
+    """A group with ad_x^3 = -z ad_x, where the number z is a quadratic form of x.
 
-    These groups have dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2. Here c_2 and c_3 are Stumpff functions.
-    If ``signed`` is true, z may be negative.
+    Let c_2 and c_3 be Stumpff functions. Then dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2. If ``signed`` is
+    true, z may be negative.
     """
 
     signed: ClassVar[bool] = False
@@ -35,7 +35,7 @@ class CubicAd(ClosedFormSeries):
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x.
 
-        The method computes only two brackets, for products with any number of factors.
+        The method always computes two brackets.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -53,11 +53,12 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The number f is a factor, and W is a product of functions of ad_x. On these groups
-        W(ad_x) = 1 + b ad_x + c ad_x^2. Let A, B and C be the sums of f v, f b v and f c v. The result is
+        The number f is a factor, and W is a product of functions of ad_x. Each W(ad_x) is a polynomial
+        1 + b ad_x + c ad_x^2. Let A, B and C be the sums of f v, f b v and f c v. The result is
         A + ad_x (B + ad_x C), which needs only two brackets.
 
-        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A.
+        If ``dual`` is true, ad*_x replaces ad_x. If ``total`` is given, ``total(indices)`` with the indices
+        of all terms returns A.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -13,9 +13,8 @@ from codegen.ir.domain import Domain
 class LargeGroup(LieGroup):
     """A group of large matrices. Its elements are never computed, because they have n^2 entries.
 
-    Each operation of the group raises :class:`codegen.errors.SceneError`.
-    ``families`` is a text for the error message. It contains the names of the families of methods that can be
-    emitted for this group.
+    Each operation of the group raises :class:`codegen.errors.SceneError`. The text ``families`` for the error
+    message lists the families of methods that work for this group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -27,7 +26,7 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"{self.name} is too large for formulas with the coordinates of its elements",
+            f"the elements of {self.name} have too many coordinates for formulas",
             expected=f"a method of the family {self.families}",
             hint="for formulas with coordinates, use a scene with matrices of at most eight rows",
         )
@@ -63,8 +62,8 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. Emitted steps multiply vectors by exponentials of matrices without computing the
-    exponentials (:mod:`codegen.ir.linear_array_step`).
+    """GL(n) for large n. Emitted steps compute exp(A) y from products of matrices and vectors, without the
+    matrix exp(A) (:mod:`codegen.ir.linear_array_step`).
     """
 
     def __init__(self, n: int) -> None:

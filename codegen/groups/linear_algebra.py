@@ -16,7 +16,7 @@ from codegen.ir.domain import Domain
 
 
 class Scalar(Protocol):
-    """A number of a domain (:mod:`codegen.ir.domain`). The operands of an operation must be of the same
+    """A number of a domain (:mod:`codegen.ir.domain`). Both operands of an operation must belong to the same
     domain.
     """
 
@@ -54,8 +54,9 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     """Return v (1 + e/2 + 3 e^2/8). For e = 1 - |v|^2, this is v/|v| up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # The sum 1 + excess is not computed, because rounding would remove a small excess. Doubles are denser
-    # below 1 than above 1, so positive values would be removed more often, and v would become too short.
+    # The sum 1 + excess is not computed, because rounding would lose a small excess. The spacing of doubles
+    # is larger above 1 than below 1. Therefore a positive excess would be lost more often than a negative
+    # excess, and v would become too short.
     return tuple(a + excess * a for a in v)
 
 
@@ -87,9 +88,9 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 
 
 def determinant(a: Vector[S], n: int) -> S:
-    """Return the determinant of an n x n matrix by expansion along the rows.
+    """Return the determinant of an n x n matrix by Laplace expansion along the rows.
 
-    The method needs n (2^(n-1) - 1) products and no divisions.
+    Each minor is computed once. The result needs n (2^(n-1) - 1) products and no divisions.
 
     >>> determinant((1, 2, 3, 4), 2)
     -2
@@ -125,7 +126,7 @@ def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
 
 
 WITHOUT_PIVOTS = 3
-"""Matrices with at most this number of rows are inverted without elimination."""
+"""The largest number of rows for which :func:`invert` uses a formula without pivots."""
 
 
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
@@ -151,8 +152,8 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
 def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges.
 
-    ``a`` has n rows and columns, and ``b`` has n rows. The pivots are close to 1 if ``a`` is close to the
-    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite.
+    ``a`` has n rows and columns, and ``b`` has n rows. If ``a`` is close to the unit matrix, all pivots are
+    close to 1. If the symmetric part of ``a`` is positive definite, all pivots are positive.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

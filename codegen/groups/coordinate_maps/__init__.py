@@ -23,10 +23,10 @@ MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondK
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:
-    """Return the coordinate map of a scene, or None for the exponential map. ``given`` is the name of the map
-    or a :class:`CoordinateMap`.
+    """Return the coordinate map of a scene, or None for the exponential map.
 
-    :class:`SceneError` is raised for an unknown name, and for a map that does not exist on the group.
+    ``given`` is the name of the map or a :class:`CoordinateMap`. :class:`SceneError` is raised if the name is
+    unknown or if the group does not have the map.
     """
     if given == EXPONENTIAL:
         return None

@@ -13,11 +13,12 @@ from codegen.ir.domain import Domain
 
 
 class CoordinateMap(ABC):
-    """A map tau from the algebra to the group with tau(0) = e, whose derivative at zero is the identity map.
+    """A map tau from the algebra to the group. Its value tau(0) is the neutral element, and its derivative at
+    zero is the identity map.
 
-    A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0. It writes y = tau(x).y0 and applies a
-    Runge-Kutta method to x' = dtau^{-1}_x f(tau(x).y0). The inverse differential is not truncated, so both
-    methods have the same order.
+    A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0. The substitution y = tau(x).y0 gives
+    the equation x' = dtau^{-1}_x f(tau(x).y0), which a Runge-Kutta method solves. The inverse differential is
+    exact, so the order of the Runge-Kutta method is kept.
 
     - ``name`` is the value of the option ``coordinates`` of a scene that uses this map.
     - ``text`` describes the map in the headers of emitted code.
@@ -38,6 +39,6 @@ class CoordinateMap(ABC):
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return dtau^{-1}_x y.
 
-        If x(t) satisfies x' = dtau^{-1}_x y, then g(t) = tau(x(t)) satisfies g' = y.g, where y.g is
-        defined by :meth:`LieGroup.velocity`.
+        If x(t) satisfies x' = dtau^{-1}_x y, then g(t) = tau(x(t)) satisfies g' = y.g. The method
+        :meth:`LieGroup.velocity` computes y.g.
         """

@@ -13,13 +13,12 @@ from codegen.ir.domain import Domain
 class Cayley(CoordinateMap):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
 
-    The element x is a matrix or a pure quaternion, and 1 is the identity. The map exists on a group if the
-    algebra contains x^3 for all elements x. Examples are the groups of matrices g with g^T J g = J, where J
-    is a fixed matrix.
+    The element x is a matrix or a pure quaternion, and 1 is the identity. A group has a Cayley map if its
+    algebra contains x^3 for all elements x. For example, let J be a fixed matrix. Then the group of all
+    matrices g with g^T J g = J has a Cayley map.
 
     On groups of orthogonal matrices, cay(x) is defined for all x. On other groups, the matrix 1 - x/2 may be
-    singular for a long step of a method. This step fails with the status TOO_FAR, and a shorter step is
-    needed.
+    singular if the step size is large. Then the step fails with the status TOO_FAR.
     """
 
     name = "cayley"
