@@ -1,5 +1,5 @@
-"""Lie algebras of matrices with a rational basis. The dual basis and the structure constants are computed by
-sparse arithmetic.
+"""Lie algebras of matrices. The basis matrices have rational entries. The dual basis and the structure
+constants are computed by sparse arithmetic.
 """
 
 from __future__ import annotations
@@ -36,24 +36,26 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """One tuple for each position in an n x n matrix, row by row. The tuple contains a pair (i, x) for
-        each basis matrix i that has a non-zero entry x at this position.
+        """The non-zero entries of the basis matrices: one tuple for each position, row by row.
+
+        A pair (i, x) in the tuple means that basis matrix i has the entry x at this position.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """One tuple for each position in an n x n matrix, row by row. The tuple contains a pair (i, x) for
-        each matrix i of the dual basis that has a non-zero entry x at this position.
+        """The non-zero entries of the dual basis: one tuple for each position, row by row.
+
+        A pair (i, x) in the tuple means that matrix i of the dual basis has the entry x at this position.
         """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """A number k for which every product of k matrices of the algebra is zero, or 0 if no k is found.
+        """A number k such that every product of k matrices of the algebra is zero.
 
-        The number is computed from the positions of the non-zero entries of the basis matrices. The values of
-        these entries are not used, so k may be larger than necessary.
+        If no k is found, the value is 0. The search uses only the positions of the non-zero entries of the
+        basis matrices. Therefore the search may find no k, or a k that is not the smallest one.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -129,8 +131,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components (see :func:`_components`) are orthogonal. Each component gives a
-    # block of the Gram matrix, and each block is inverted separately.
+    # Two basis matrices in different components (see :func:`_components`) are orthogonal. Therefore the Gram
+    # matrix is block diagonal. The blocks are inverted one by one.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):
@@ -149,8 +151,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
 def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
     """Return the connected components of a graph.
 
-    The vertices are the basis matrices. Two vertices are joined by an edge if their entry in the Gram matrix
-    is not zero.
+    The vertices are the basis matrices. An edge joins two matrices if their inner product, an entry of the
+    Gram matrix, is not zero.
     """
     components: list[list[int]] = []
     seen: set[int] = set()

@@ -14,7 +14,7 @@ from orderconds.ring import QQ
 
 
 class MatrixCoordinates(MatrixElements, CayleyMap):
-    """A group of matrices with a rational basis of its algebra.
+    """A group of matrices. The basis matrices of the algebra have rational entries.
 
     The group has a Cayley map if the algebra contains x^3 for each of its elements x.
     """
@@ -23,7 +23,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         """Return this group if it has the capability, otherwise None.
 
         The capability :class:`CayleyMap` requires that the algebra contains x^3 for each of its elements x.
-        If this condition is violated, cay(x) is not in the group for some x.
+        In any other group, some values cay(x) are not in the group.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
@@ -32,11 +32,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        The test is done for only one element x. Its coordinates are fixed integers below 2^61, which replace
-        random integers. The entries of x^3 are polynomials of degree 3 in the coordinates. For random
-        coordinates, the probability of a wrong result would therefore be at most about 3/2^61.
+        The method tests one element x. The coordinates of x are fixed pseudo-random integers below 2^61. The
+        entries of x^3 are polynomials of degree 3 in the coordinates. With random coordinates, a wrong result
+        would therefore have a probability of at most about 3/2^61.
         """
-        # The coordinates are powers of 37 modulo the prime 2^61 - 1. They replace random integers.
+        # Powers of 37 modulo the prime 2^61 - 1 are the pseudo-random coordinates.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
@@ -76,7 +76,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         """Return exp(t B) for the basis matrix B with the index k.
 
         If B^3 = s B for a number s, the result is 1 + t c_1(z) B + t^2 c_2(z) B^2 with z = -s t^2. Here c_1
-        and c_2 are the Stumpff functions. If there is no such number s, :meth:`exp` is used.
+        and c_2 are the Stumpff functions. Otherwise the method calls :meth:`exp`.
         """
         b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
         square = matmul(b, b, self.order)
@@ -102,13 +102,13 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
     z: S = d.rational(-c.numerator, c.denominator) * (t * t)
     if c < 0:
         return d.call("stumpff1", z), d.call("stumpff2", z)
-    # The value of c_2 is computed by the half-angle formula c_2(z) = c_1(z/4)^2/2.
+    # The half-angle formula gives c_2(z) = c_1(z/4)^2/2.
     half: S = d.call("signed_stumpff1", d.rational(1, 4) * z)
     return d.call("signed_stumpff1", z), d.rational(1, 2) * (half * half)
 
 
 def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
-    """Return ``total`` plus the two products of a weight and a value. Terms with weight zero are omitted."""
+    """Return ``total`` + w_0 v_0 + w_1 v_1 with weights w and values v. Terms with w_i = 0 are omitted."""
     for w, v in zip(weights, values, strict=True):
         if w:
             factor: S = d.rational(w.numerator, w.denominator)

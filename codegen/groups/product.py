@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 
 class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
-    """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
-    factor.
+    """The direct product G1 x G2 x ... of groups. An element lists the coordinates of the factors one after
+    the other. Every operation acts on each factor separately.
 
     SO(3) x R^3 is not the group of rigid motions. In a rigid motion the rotation acts on the vectors of R^3,
-    but in the direct product it does not. The product has a capability (:mod:`codegen.groups.capabilities`)
-    if all its factors have this capability.
+    but in the direct product the rotation does not act on them. The class inherits several capabilities
+    (:mod:`codegen.groups.capabilities`). A product has one of them only if all its factors have it.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -50,20 +50,17 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split the coordinates of an element into the coordinates of the factors.
 
-        If x has ``size`` coordinates, x is split as an element of the group. If not, x is split as an element
-        of the algebra or of its dual.
+        If x has ``size`` coordinates, x is an element of the group. Otherwise x is an element of the algebra
+        or of the dual of the algebra.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if all factors have the operations of the class ``capability``. If not, return
-        None.
-        """
+        """Return this product if the product and all factors have the capability, otherwise None."""
         own = super().offers(capability)
-        # A product always has the capabilities LieGroup and DirectProduct, even if its factors have no
-        # capabilities.
+        # Every product has the operations of LieGroup and DirectProduct, whatever its factors are.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
@@ -71,8 +68,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
         """Call ``operation`` for each factor, and join the results to one tuple.
 
-        The first argument of a call is the factor. The remaining arguments are the elements of ``args``,
-        restricted to the coordinates of the factor.
+        The first argument of a call is the factor. The other arguments are the coordinates that the elements
+        in ``args`` have in this factor.
         """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
@@ -126,7 +123,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of all factors. Each rule replaces a product of two coordinates."""
+        """Return the equations of all factors as replacement rules (see :class:`LeftTranslation`)."""
         ends = accumulate(f.size for f in self.factors)
         return tuple(
             relation
@@ -155,15 +152,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the product x y x of elements of the algebra, factor by factor."""
+        """Return the product x y x for elements x and y of the algebra, factor by factor."""
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element x of the algebra with velocity(x, g) = v, factor by factor."""
+        """Return the element x of the algebra that satisfies velocity(x, g) = v, factor by factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all factors. Each equation is a pair of its text and its residual at g."""
+        """Return the equations of all factors, as pairs of a name and a residual at g."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
@@ -179,8 +176,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    Labels of different lengths could give equal symbols if a factor is a product itself: the label aa would
-    mean the 27th factor, and also the first factor of the first factor.
+    With labels of different lengths, two coordinates could have the same symbol. For example, aa could be the
+    27th factor. If the first factor is a product, aa could also be the first factor of that product.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

@@ -1,4 +1,4 @@
-"""A registry finds a group or an action by the name of its class.
+"""Registries of groups and actions. A registry finds a class by the name of the class.
 
 A registry contains the classes of this package and the classes that :func:`codegen.groups.register` has
 added. The classes of this package are imported on first use.
@@ -27,15 +27,15 @@ class Registry(Generic[T]):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All names. The names of built-in classes come first."""
+        """The names of the built-in classes, followed by the names of the added classes."""
         return (*self.built_in, *self._added)
 
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        An added class of the same name is replaced. Therefore a scene file that adds classes can be read
-        twice. :class:`SceneError` is raised if a built-in class has the same name, or if the class has
-        abstract methods.
+        If an added class has the same name, the new class replaces it. Therefore a scene file that adds
+        classes can be read twice. :class:`SceneError` is raised in two cases: a built-in class has the same
+        name, or the new class has abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -50,15 +50,13 @@ class Registry(Generic[T]):
         self._added[name] = cls
 
     def remove(self, cls: type[T]) -> None:
-        """Remove an added class. Nothing happens if the class was not added or has been replaced by another
-        class.
-        """
+        """Remove an added class. If the added classes do not contain ``cls``, nothing happens."""
         if self._added.get(cls.__name__) is cls:
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class with this name. :class:`orderconds.errors.UnknownName` is raised if no class has
-        this name.
+        """Return the class with this name. If no class has this name,
+        :class:`orderconds.errors.UnknownName` is raised.
         """
         if name in self._added:
             return self._added[name]

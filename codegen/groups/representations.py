@@ -29,20 +29,20 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""An element of the algebra with a vector, or an element of the dual of the algebra with a covector."""
+"""A pair: an element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
 
 
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
     A vector lists its components in the first copy, then those in the second copy, and so on. The methods of
-    this class act on one copy. The group must have the operations of the class ``needs``.
+    this class act on one copy. The attribute ``needs`` is a capability that the group must have.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. If it is not Ad, a semidirect product with this representation offers
-    no covering group.
+    """True if the representation is Ad. A semidirect product with another representation has no covering
+    group.
     """
 
     def __init__(self, copies: int = 1) -> None:
@@ -64,13 +64,11 @@ class Representation(ABC):
 
     @abstractmethod
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^T p for the representation rho. It satisfies <rho(g)^T p, v> = <p, rho(g) v> for all
-        v.
-        """
+        """Return rho(g)^T p for the representation rho: <rho(g)^T p, v> = <p, rho(g) v> for all v."""
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-T p for the representation rho. The method is the inverse of :meth:`dual`."""
+        """Return rho(g)^-T p for the representation rho. This map is the inverse of :meth:`dual`."""
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -78,7 +76,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return X^T p, where X is the linear map v -> x.v. It satisfies <X^T p, v> = <p, x.v> for all v."""
+        """Return X^T p, where X is the linear map v -> x.v. Thus <X^T p, v> = <p, x.v> for all v."""
 
     @abstractmethod
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -95,9 +93,9 @@ class Representation(ABC):
         """
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
+        """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
-        A subclass must implement this method if :meth:`closed` returns False.
+        If :meth:`closed` returns False, a subclass must implement this method.
         """
         raise self._missing("gradient")
 
@@ -127,22 +125,23 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="series() and dual_series() if closed() is True, or gradient() if closed() is False",
+            expected="if closed() returns True: series() and dual_series(); otherwise: gradient()",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if each element acts on vectors by multiplication with its matrix. Otherwise
-        return None.
+        """If each element g acts on vectors by multiplication with the matrix of g, return the group.
+        Otherwise return None.
         """
         return None
 
 
 class AlgebraVectors(Representation):
-    """Copies of the Lie algebra, on which the group acts by Ad. For SO(3) these are copies of R^3.
+    """Copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
 
     Here x.v is the bracket [x, v]. A pair (x, u) of elements of the algebra is represented by the dual number
-    x + u e with e^2 = 0. For functions of ad, the group's formulas are evaluated with these dual numbers.
+    x + u e with e^2 = 0. With these dual numbers, the group's formulas for functions of ad hold for the
+    semidirect product, too.
     """
 
     of_algebra = True
@@ -186,13 +185,13 @@ class AlgebraVectors(Representation):
         return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because the class ``needs`` has closed forms for functions of ad."""
+        """Return True, because the group must have the capability :class:`ClosedFormSeries`."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        The pairs x and v become dual numbers. The group's closed form is evaluated with these numbers.
+        The method represents x and v by dual numbers, and evaluates the group's formula for ``word``.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
@@ -203,18 +202,19 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p.
 
-        The group's closed form for functions of ad is evaluated with dual numbers. A pair (y, v) of elements
-        of the algebra becomes the dual number y + v e with e^2 = 0. The pair p = (m, q) becomes q + m e. Then
-        the coefficient of e in <q + m e, y + v e> is <m, y> + <q, v>, the value of p at (y, v).
+        The method represents x and p by dual numbers, and evaluates the group's formula for ``word``. A pair
+        (y, v) of elements of the algebra becomes y + v e with e^2 = 0. The pair p = (m, q) becomes q + m e.
+        The value of p at (y, v) is <m, y> + <q, v>. This value is the coefficient of e in the pairing
+        <q + m e, y + v e>.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if its elements are the rotation matrices of R^3. If not, return None.
+        """Return the group if its elements are the rotation matrices of R^3. Otherwise return None.
 
-        A rotation matrix g of R^3 acts by multiplication with g, because Ad_g v = g v.
+        For a rotation matrix g of R^3, Ad_g v is the product of the matrix g and the vector v.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
@@ -277,11 +277,11 @@ class MatrixColumns(Representation):
         return tuple(exponential[n * i + n - 1] for i in range(n - 1))
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
+        """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
         Let A be the matrix of x, and M = [[A, u], [0, 0]]. The derivative of exp at M is a linear map. The
-        transpose of this map is the derivative of exp at M^T. One evaluation of the transpose gives both
-        results.
+        transpose of this map is the derivative of exp at M^T. One evaluation of the transpose gives the
+        derivatives with respect to x and u.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -303,7 +303,7 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group, because each element acts by multiplication with its matrix."""
+        """Return the group. Each element g acts on a column by multiplication with the matrix of g."""
         return self._matrices(group)
 
 
@@ -323,7 +323,7 @@ class PlaneVectors(MatrixColumns):
         return (v[0] * p[1] - v[1] * p[0],)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return c_1(w^2) u + c_2(w^2) w J u, where w is the only component of x.
+        """Return phi(x) u = c_1(w^2) u + c_2(w^2) w J u, where w is the only component of x.
 
         c_1 and c_2 are Stumpff functions, and J is the rotation by a right angle: J(a, b) = (-b, a).
         """
@@ -332,17 +332,18 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. For x = (w, u) the identity ad_x^3 = -w^2 ad_x reduces each power series in ad_x to a
-        quadratic polynomial in ad_x.
+        """Return True. Let x = (w, u) with a number w and a vector u. Then ad_x^3 = -w^2 ad_x, and each power
+        series in ad_x is equal to a quadratic polynomial in ad_x.
         """
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        Let x = (w, u) and v = (y, q), and let J be the rotation by a right angle: J(s, t) = (-t, s). The
-        product ``word`` is 1 + b ad_x + c ad_x^2, where the numbers b and c depend on w. The result is
-        (y, q + b r + c w J r) with r = w J q - y J u.
+        Let x = (w, u) and v = (y, q) with numbers w, y and vectors u, q. Let J be the rotation by a right
+        angle: J(s, t) = (-t, s). Then ad_x v = (0, r) and ad_x^2 v = (0, w J r) with r = w J q - y J u.
+        The product ``word`` is equal to 1 + b ad_x + c ad_x^2 with numbers b and c. The result is
+        (y, q + b r + c w J r).
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
@@ -354,7 +355,7 @@ class PlaneVectors(MatrixColumns):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Apply the transpose of the linear map v -> series(d, group, word, x, v) to p."""
+        """Apply to p the transpose of the linear map v -> series(d, group, word, x, v)."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         turned = c * w
