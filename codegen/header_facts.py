@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
 The header states facts about the method and the scene. It also lists operations and arguments that the module
-does not need, although other modules need them.
+does not need.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SINGLE_IS = (
 )
 
 NOT_SMOOTH = "a step has this order if the field is smooth along the whole step"
-"""A remark in the header of emitted code, for a scene whose field is not smooth."""
+"""The header of emitted code contains this remark if the field of the scene is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps in the lines 'solved by' are for double precision"
@@ -41,8 +41,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # The header line ``digits`` is about the rounded coefficients of a tableau. If the method has no tableau,
-    # there is no such line.
+    # The header line ``digits`` describes the rounding of the coefficients of a tableau.
     tableau = method.coefficients is not None
     carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
@@ -91,7 +90,7 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the header line about the memory that a step needs.
 
-    There is no such line if the family of the method does not describe this memory.
+    Only a method with a low-storage scheme has such a line.
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:

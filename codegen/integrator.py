@@ -1,8 +1,8 @@
-"""Integrators: emitted modules as Python objects with methods for steps, runs, trajectories and Jacobians.
+"""Integrators: Python objects whose methods call the code of an emitted module.
 
 A state is a flat sequence of numbers, a NumPy array, or a tuple such as (q, mu). A batch of states is an
-array with one state in each row. The module :mod:`codegen.state_form` describes these types. Every
-method returns states of the same type as the state that the caller passed.
+array with one state in each row (:mod:`codegen.state_form`). The methods return states of the type that the
+caller passed. Only ``run_batch`` always returns an array.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from codegen.state_form import Fields, State, batch_of, read
 class Integrator(RunToEnd):
     """An emitted module that is loaded into Python.
 
-    ``interface`` describes the functions of the module and their arguments. ``defaults`` contains the values
-    of the parameters in the scene.
+    ``interface`` describes the functions of the module and their arguments. ``defaults`` contains the
+    default values of the parameters.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
@@ -45,8 +45,8 @@ class Integrator(RunToEnd):
     def fields(self) -> Fields:
         """The name and the size of each part of a state, such as q and mu.
 
-        A state may be given as a tuple of its parts. The tuple must have the same order as ``fields``. The
-        tuple ``fields`` is empty if the integrator was not loaded from emitted files.
+        A state may be given as a tuple of its parts, in the order of ``fields``. If the integrator was not
+        loaded from emitted files, ``fields`` is empty.
         """
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
@@ -175,8 +175,8 @@ class Integrator(RunToEnd):
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # If the exact quotient is an integer, the rounded quotient may be slightly larger. The factor
-            # 1 - 1e-12 prevents an additional step in this case.
+            # If the exact quotient is an integer, the computed quotient may exceed it by rounding. The
+            # factor 1 - 1e-12 prevents an additional step.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -213,10 +213,10 @@ class Integrator(RunToEnd):
         - ``limit`` is the largest number of steps.
 
         If ``state`` is a batch, its states are integrated one after another. The result then contains an
-        array of states. Its numbers of steps are sums over all states.
+        array of states, and the total numbers of accepted and rejected steps.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
-        step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
+        step fails. If ``limit`` steps are too few, StepFailed is raised with the status ``LIMIT``.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -263,8 +263,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If ``time`` was reached in one step, this step may have been shortened to end at ``time``. The
-            # proposed step size ``arrival.h`` may then be too small. Thus a larger previous size is kept.
+            # A single step to ``time`` may have been shortened to end at ``time``. The proposed step size
+            # ``arrival.h`` may then be too small, so the larger of ``h`` and ``arrival.h`` is used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -286,14 +286,14 @@ class Integrator(RunToEnd):
 
         - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
         - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
-        - ``out`` is an array of shape (N, size) in Fortran order, to which the new states are written.
-          ``out`` and ``states`` may be the same array. The states are then not copied.
+        - ``out`` is an array for the new states, of shape (N, size) in Fortran order. If ``out`` and
+          ``states`` are the same array, the states are not copied.
         - A parameter is a number, or an array of N numbers.
 
         If a step of a system fails, no error is raised. The result contains the status of each system
-        (:class:`Status`), its number of completed steps, and its state after these steps. Modules emitted
-        with ``batch=True`` step the systems by vector instructions. Modules emitted without ``batch=True``
-        step one system after another.
+        (:class:`Status`), its number of completed steps, and its state after these steps. A module emitted
+        with ``batch=True`` uses vector instructions for several systems at once. Other modules integrate one
+        system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
@@ -318,11 +318,12 @@ class Integrator(RunToEnd):
         return BatchRun(table.T, statuses, completed)
 
     def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
-        """Run all systems, and replace the states in ``table`` by the new states.
+        """Integrate all systems, and replace the states in ``table`` by the new states.
 
         Return two arrays: the status of each system, and the number of completed steps of each system.
         ``moment`` contains the initial time, the step size, and the number of steps. ``values`` contains the
-        parameters of each system, and ``held`` contains its run-time inputs.
+        parameters, and ``held`` contains the run-time inputs. The arrays ``table``, ``values`` and ``held``
+        have one column for each system.
         """
         import numpy as np
 
@@ -407,7 +408,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Update the caller's ``statistics`` by the iteration counts that emitted code has returned."""
+        """Update ``statistics`` with the iteration counts from one call of emitted code."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -419,7 +420,7 @@ class Integrator(RunToEnd):
     def _call(
         self, begun: Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Make steps of size h. Return the final state and a sequence of states.
+        """Make ``steps`` steps of size h. Return the final state and a sequence of states.
 
         If ``stride`` is not 0, the sequence contains every ``stride``-th state.
         """

@@ -39,9 +39,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (d.rational(1), d.rational(0))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of g and k. It is a product of complex numbers, because a rotation (c, s) is the
-        multiplication by c + i s.
-        """
+        """Return the product of g and k: the product of the complex numbers c + i s of the two rotations."""
         return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -59,7 +57,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w^2 y for x = (w,). Its matrix is the product hat(x) hat(y) hat(x)."""
+        """Return -w^2 y for x = (w,). The vector -w^2 y has the matrix hat(x) hat(y) hat(x)."""
         return (-(x[0] * x[0] * y[0]),)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -1,2 +1,2 @@
-"""The two intermediate representations of a step: step programs and kernels. The variables of a step program
+"""A step has two intermediate representations: step programs and kernels. The variables of a step program
 are elements of Lie groups and Lie algebras. The variables of a kernel are scalars."""

@@ -1,7 +1,7 @@
 """Products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
 
-Such a product is called a word. Each factor is a function phi(s t) with a number s. The variable t denotes
-ad_x, or ad*_x on the dual of the Lie algebra. The factors commute, so their order does not matter.
+Such a product is called a word. The variable t denotes ad_x, or ad*_x on the dual of the Lie algebra. Each
+factor is a function phi(s t) with a number s. The factors commute, so their order does not matter.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# ``order=True`` defines the comparison < of factors.
+# The option ``order=True`` makes factors sortable.
 @dataclass(frozen=True, order=True)
 class Factor:
     """The function phi(s t)^p of the variable t. ``function`` is the name of phi, ``scale`` is s, and
@@ -54,8 +54,8 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # The factors commute. A product is therefore determined by the exponent of each distinct function. The
-    # key of ``powers`` is (function, scale, order). The product of all exponentials is exp(``rate`` t).
+    # The factors commute, so the exponents of equal functions are added. ``powers`` maps (function, scale,
+    # order) to the exponent. The product of all exponentials is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
@@ -65,15 +65,15 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # The loop adds keys to ``powers``, so it runs over a copy of the entries.
+    # The loop runs over a copy of the entries, because its body adds keys to ``powers``.
     for (function, scale, order), n in list(powers.items()):
-        # The rule is exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). It is applied at most once,
-        # because only one exponential is left at this point, and the rule removes it.
+        # With s = ``scale``, exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). This rule removes the
+        # combined exponential, so the rule is applied at most once.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # The result does not depend on the order of the factors in ``word``, because the entries are sorted.
+    # Sorting makes the result independent of the order of the factors in ``word``.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
         # A power n with |n| > 1 becomes |n| equal factors, because only factors with the powers 1 and -1 can

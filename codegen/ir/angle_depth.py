@@ -1,8 +1,8 @@
 """The depth of a step: the length of its longest chain of rotation angles.
 
-In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. Each angle of
-the chain multiplies the rounding errors. The largest angle that a step accepts therefore depends on the depth
-(:func:`codegen.snippets.stumpff.limit`).
+In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. A rotation by
+a large angle amplifies the rounding errors of the previous rotations. For a longer chain, a step therefore
+accepts only smaller angles (:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from codegen.ir.kernel import Kernel, Let
 def chain(kernel: Kernel) -> int:
     """Return the depth of a step. ``kernel`` contains the scalar assignments of the step.
 
-    The depth is the largest number of Stumpff functions that are nested in one another, but at least 1.
+    The depth is the largest number of nested Stumpff functions. The smallest depth is 1.
 
     In two cases the depth is 1, because the rounding error of one angle is not multiplied by the next angle:
 
     - The kernel has implicit equations. Each iteration for these equations reduces the errors of all angles.
-    - The kernel is a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
+    - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -32,14 +32,13 @@ def chain(kernel: Kernel) -> int:
     """
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # The table contains the depth of every name that a statement reads, because each name is assigned before
-    # it is read.
+    # ``depths`` maps each assigned name to the depth of its value.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # The depth of a step is the largest depth of an output, because the outputs are the new state. It is at
-    # least 1, because :func:`codegen.snippets.stumpff.limit` divides by the depth.
+    # The outputs are the new state. The depth of the step must be at least 1, because
+    # :func:`codegen.snippets.stumpff.limit` divides by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
@@ -47,13 +46,12 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     """Return the depth of an expression. ``depths`` contains the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
-        # ``below`` is the largest depth of the arguments. ``walk`` yields the arguments before the node.
+        # ``below`` is the largest depth of the arguments. In ``walk``, each node follows its arguments.
         below = max((by_node[a.id] for a in node.args), default=0)
-        # Inputs have depth 0, because the state is assumed to be exact.
+        # The inputs of the step, such as the old state, have depth 0: they depend on no angle of this step.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # A Stumpff function increases the depth by 1. A derivative of a Stumpff function (``slope2`` etc.)
-        # is not counted, because a formula with a derivative also contains a Stumpff function of the same
-        # angle.
+        # A Stumpff function increases the depth by 1. A derivative (``slope2`` etc.) does not: each formula
+        # with a derivative also contains a Stumpff function of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

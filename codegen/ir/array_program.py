@@ -1,10 +1,9 @@
 """Array programs: lists of assignments to matrices. Emitted code contains loops for each assignment.
 
-The text of a loop has the same length for all numbers of rows, so the code stays short for large matrices.
-A :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
-scalars in a program are expressions (:mod:`codegen.ir.expr`). A formula may give the entries of a constant
-matrix. In this formula the symbols :data:`ROW` and :data:`COLUMN` are the row index and the column index of
-the entry. Indices begin at zero.
+Loops keep the code short for large matrices. A :class:`Matrix` is an array, or a rectangular part of an
+array. The scalars in a program are expressions (:mod:`codegen.ir.expr`). The entries of a constant matrix are
+numbers or formulas. In a formula, the symbols :data:`ROW` and :data:`COLUMN` denote the row index and the
+column index of the entry. Indices begin at zero.
 """
 
 from __future__ import annotations
@@ -29,8 +28,8 @@ Arrays = MutableMapping[str, list[Scalar]]
 class Matrix:
     """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
 
-    ``stride`` is the distance in the array between the first entries of successive rows. The value 0 is
-    replaced by the number of columns. The rows are then stored without gaps between them.
+    ``stride`` is the distance in the array between the first entries of successive rows. The value 0 denotes
+    the number of columns: there are no gaps between the rows.
     """
 
     name: str
@@ -41,7 +40,7 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The distance in the array between the first entries of successive rows."""
+        """The distance between rows: ``stride``, or the number of columns if ``stride`` is 0."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
@@ -82,8 +81,8 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A constant matrix. If it is banded, ``diagonals`` contains its entries. Otherwise ``full`` is a
-    formula for all entries, or a tuple of all entries, row by row.
+    """A constant matrix. ``diagonals`` contains the entries of a banded matrix. For other matrices, ``full``
+    is one formula for all entries, or a tuple of numbers, row by row.
     """
 
     name: str
@@ -107,9 +106,7 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that may be non-zero: those on the ``diagonals``, or all entries if the
-        matrix is full.
-        """
+        """The number of entries that may be non-zero. In a banded matrix they are on the ``diagonals``."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -132,18 +129,17 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
-    # If the entries are given as numbers, no formula is evaluated.
+    # The entries are numbers.
     if isinstance(entry, tuple):
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     # The formula is evaluated twice. The first evaluation replaces only the row and column indices by
-    # numbers. All other symbols remain, because ``kept`` maps them to themselves.
+    # numbers. ``kept`` maps the other symbols to themselves.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The formula may select a branch by a comparison of indices. In the first evaluation the indices are
-        # exact integers, which can be compared. In ``domain`` they may be power series, which cannot always
-        # be compared.
+        # The formula may compare indices to select a branch. In the first evaluation all indices are exact
+        # integers. The scalars of ``domain`` may be power series, which cannot always be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -154,7 +150,7 @@ class Multiplication:
     """The statement target = L R, or target = target + L R if ``added`` is true.
 
     L is the matrix ``left``, or its transpose if ``left_transposed`` is true. R is the matrix ``right``, or
-    its transpose if ``right_transposed`` is true. L and R are not stored in the array of the target.
+    its transpose if ``right_transposed`` is true. The array of the target must not contain L or R.
     """
 
     target: Matrix
@@ -188,8 +184,7 @@ class Apply:
 class Term:
     """One term of a :class:`Combination`: a coefficient times a matrix, or times its transpose.
 
-    If this product is smaller than the target of the combination, it is extended by zeros on the right and
-    below.
+    A product that is smaller than the target is padded with zeros on the right and below.
     """
 
     coefficient: Expr
@@ -198,9 +193,7 @@ class Term:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """The number of rows and the number of columns of ``matrix``, or of its transpose if ``transposed``
-        is true.
-        """
+        """The number of rows and the number of columns of this term."""
         m = self.matrix
         return (m.columns, m.rows) if self.transposed else (m.rows, m.columns)
 
@@ -219,21 +212,19 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function whose argument is a matrix of a program. It returns the matrix that replaces the argument."""
+"""A function that returns the replacement of a given matrix."""
 
 
 @dataclass(frozen=True)
 class ArrayProgram:
-    """A list of assignments ``body``. They compute the matrix ``result`` from the matrix ``argument``."""
+    """The assignments in ``body`` compute the matrix ``result`` from the matrix ``argument``."""
 
     argument: Matrix
     body: tuple[ArrayStatement, ...]
     result: Matrix
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalar expressions in the program: coefficients, and formulas for entries of constant
-        matrices.
-        """
+        """Yield the coefficients of all terms, and the formulas for entries of constant matrices."""
         for statement in self.body:
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
@@ -265,11 +256,9 @@ class ArrayProgram:
         this program. The names of all other arrays get the prefix ``name``.
         """
 
-        # Without the prefix ``name``, an intermediate array could have the same name as an array of the
-        # program that will contain the statements.
+        # The prefix prevents equal names of arrays in the two programs.
         def now(matrix: Matrix) -> Matrix:
-            # ``argument`` and ``result`` are matrices of the program that will contain the statements, so
-            # their names get no prefix.
+            # ``argument`` and ``result`` keep their names, which are names of the other program.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -300,8 +289,8 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first statement that assigns to an array creates the array. The target of this statement must be
-    # the whole array.
+    # The first statement that assigns to an array creates the array with the size of its target. This target
+    # must be the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -318,7 +307,7 @@ def evaluated(
                 for i in range(rows):
                     for j in range(columns):
                         at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
-                        # A term that is smaller than the target changes only its upper left corner.
+                        # A smaller term is added to the upper left corner of the target.
                         place = i * target.columns + j
                         values[place] = values[place] + c * other[at]
     for i in range(target.rows):
@@ -332,17 +321,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The number a is the entry of the constant matrix in row ``row`` and column ``column``. If the
-        # constant matrix is the right factor, a times column ``row`` of ``matrix`` is added to column
-        # ``column`` of the result.
+        # The factor C (:class:`Apply`) has the entry a in row ``row`` and column ``column``. For M C, column
+        # ``row`` of M is multiplied by a and added to column ``column`` of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # If the constant matrix is the left factor, a times row ``column`` of ``matrix`` is added to row
-            # ``row`` of the result.
+            # For C M, row ``column`` of M is multiplied by a and added to row ``row`` of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -356,7 +343,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
     values = []
     for i in range(target.rows):
         for j in range(target.columns):
-            # ``start`` is a list without gaps, so the index is not computed by ``target.place``.
+            # ``start`` contains one value for each entry of the target, row by row without gaps.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
                 # The transpose of a factor is not formed. Its entries are read with exchanged indices.
@@ -379,8 +366,8 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # An entry that is a sum of k > 0 products needs k - 1 additions. If each entry has a product, all
-            # entries together need ``products - size`` additions. Otherwise this number may be negative.
+            # An entry that is a sum of k > 0 products needs k - 1 additions. If each entry has a product, the
+            # total is ``products - size``. If some entries have no product, this difference may be negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]
