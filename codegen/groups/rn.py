@@ -19,10 +19,10 @@ from codegen.ir.normal_form import Relation
 
 
 class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse, CayleyMap):
-    """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
+    """The abelian group (R^n, +). The exponential is the identity map, and every bracket vanishes.
 
-    On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
-    partitioned Runge-Kutta methods.
+    RKMK, Crouch-Grossman and commutator-free methods on R^n are Runge-Kutta methods. Variational methods on
+    R^n are symplectic partitioned Runge-Kutta methods.
     """
 
     def __init__(self, n: int) -> None:
@@ -47,7 +47,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return tuple(-a for a in g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x. The matrix X of x has X^2 = 0, so cay(X) = 1 + X is the translation by x."""
+        """Return x. The matrix X of x satisfies X^2 = 0. Therefore cay(X) = 1 + X, the translation by x."""
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return zero, because the matrices X and Y of x and y satisfy X Y = 0, and so X Y X = 0."""
+        """Return zero, because the matrices X and Y of x and y satisfy X Y = 0."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -75,9 +75,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the (n + 1) x (n + 1) matrix of the translation by g. The matrix maps the column (z, 1) to
-        (z + g, 1).
-        """
+        """Return the (n + 1) x (n + 1) matrix that maps each column (z, 1) to (z + g, 1)."""
         return self._affine(d, g, d.rational(1))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:

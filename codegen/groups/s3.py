@@ -16,13 +16,14 @@ from codegen.ir.number import Number
 
 
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
-    """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
+    """Unit quaternions (q0, q1, q2, q3) with real part q0 and Hamilton's product.
 
-    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). In the formulas below, g^c
-    is the conjugate of g, z = |x|^2, and c_k are the Stumpff functions.
+    An element x of the algebra is a vector of R^3, the imaginary part of a pure quaternion (H. Marthinsen's
+    thesis, section 2.6). In the formulas below, g^c is the conjugate of g, z = |x|^2, and c_k are the Stumpff
+    functions.
 
-    - The bracket is [x, y] = x y - y x = 2 (x cross y), and ad*_x mu = 2 (mu cross x).
-    - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
+    - The bracket is [x, y] = x y - y x = 2 (x cross y). Its dual is ad*_x mu = 2 (mu cross x).
+    - The adjoint action Ad_g x = g x g^c is a rotation of R^3. Its dual is Ad*_g mu = g^c mu g.
     - The exponential is exp(x) = (c_0(z), c_1(z) x). The quaternion exp(x) rotates vectors about x by the
       angle 2|x|.
     - The differential of the exponential is dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
@@ -49,13 +50,13 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (c0, *(c1 * a for a in x))
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (1 - |x|^2/4, x)/(1 + |x|^2/4)."""
+        """Return cay(x) = (1 - |x|^2/4, x)/(1 + |x|^2/4)."""
         quarter, one = d.rational(1, 4) * dot(x, x), d.rational(1)
         factor = one / (one + quarter)
         return ((one - quarter) * factor, *(factor * a for a in x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (1 - |x|^2/4) y - (x cross y) + (x.y) x/2."""
+        """Return dcay^{-1}_x y = (1 - |x|^2/4) y - (x cross y) + (x.y) x/2."""
         plain = d.rational(1) - d.rational(1, 4) * dot(x, x)
         factor = d.rational(1, 2) * dot(x, y)
         return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
@@ -70,7 +71,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return 4 |x|^2. The quaternion exp(x) rotates vectors by the angle 2|x|."""
+        """Return z = 4 |x|^2. The number z satisfies ad_x^3 = -z ad_x."""
         four: S = d.rational(4)
         return four * dot(x, x)
 
@@ -83,8 +84,9 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return self.ad(d, mu, x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^c = x + 2 q0 (q cross x) + 2 q cross (q cross x) for g = (q0, q) with the conjugate
-        g^c.
+        """Return g x g^c, where g^c is the conjugate of g.
+
+        For g = (q0, q), the result is x + 2 q0 (q cross x) + 2 q cross (q cross x).
         """
         return self._rotated(d, g[0], g[1:], x)
 
@@ -102,10 +104,9 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu. On S^3 it is equal to dexp_{-x} mu.
+        """Return dexp*_x mu = mu - c_2 v + c_3 ((2 x) cross v) with v = (2 x) cross mu.
 
-        The formula is mu - c_2 v + c_3 (2x cross v) with v = 2x cross mu. c_2 and c_3 are Stumpff functions,
-        evaluated at 4 |x|^2.
+        The numbers c_2 and c_3 are the values of two Stumpff functions at 4 |x|^2.
         """
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
@@ -136,13 +137,13 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the element x of the algebra with (0, x) g = v.
 
-        It is the imaginary part of v g^c, where g^c is the conjugate of g.
+        The result is the imaginary part of v g^c, where g^c is the conjugate of g.
         """
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g/|g| up to an error of O(e^3), where e = 1 - |g|^2. The result is (1 + e/2 + 3 e^2/8) g."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2. The result is equal to g/|g| up to O(e^3)."""
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

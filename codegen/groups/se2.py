@@ -13,10 +13,11 @@ if TYPE_CHECKING:
 
 
 class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
-    """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
+    """Motions z -> R z + a of the plane. R is the rotation by the angle with cosine c and sine s.
 
-    An element of the algebra is (w, u0, u1): the angular velocity w, and the velocity u of the point at the
-    origin. In the formulas below J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
+    The coordinates of a motion are (c, s, a0, a1). An element of the algebra is (w, u0, u1): the angular
+    velocity w, and the velocity u of the point at the origin. In the formulas below, J is the rotation by the
+    angle pi/2, and c_k are the values of the Stumpff functions at w^2.
 
     - The bracket is [(w, u), (w', u')] = (0, w J u' - w' J u).
     - The motion exp(w, u) rotates by w and translates by (c_1 + c_2 w J) u.
@@ -42,7 +43,8 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the Cayley map of the 3 x 3 matrix of x = (w, u).
 
-        The translation of the result is (1 - w J/2)^-1 u with J(a, b) = (-b, a).
+        The result has the rotation cay(w J) and the translation (1 - w J/2)^-1 u. Here J is the rotation by
+        the angle pi/2.
         """
         w, u, v = x
         one, half = d.rational(1), d.rational(1, 2) * w
@@ -52,13 +54,14 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return ((one - square) * factor, w * factor, *translation)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return y - [x, y]/2 + w w' x/4 for x = (w, u) and y = (w', u')."""
+        """Return dcay^{-1}_x y = y - [x, y]/2 + w w' x/4 for x = (w, u) and y = (w', u')."""
         factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w w' (w, u) for x = (w, u) and y = (w', u'). For the 3 x 3 matrices X of x and Y of y, the
-        result is the element with the matrix X Y X.
+        """Return the element with the matrix X Y X, where X and Y are the 3 x 3 matrices of x and y.
+
+        For x = (w, u) and y = (w', u'), the result is -w w' x.
         """
         factor = -(x[0] * y[0])
         return tuple(factor * a for a in x)
@@ -69,7 +72,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (c, -s, -(c * a + s * b), s * a - c * b)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product g k: the motion k, followed by the motion g."""
+        """Return the product g k, the motion z -> g(k(z))."""
         c, s = g[:2]
         return (c * k[0] - s * k[1], s * k[0] + c * k[1], *self.move(d, g, k[2:]))
 
@@ -79,12 +82,15 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (c * z[0] - s * z[1] + a, s * z[0] + c * z[1] + b)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return w J z + u, the velocity of the point z under x = (w, u), with J(a, b) = (-b, a)."""
+        """Return the velocity w J z + u of the point z for x = (w, u). J is the rotation by pi/2."""
         w, u, v = x
         return (u - w * z[1], v + w * z[0])
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (0, w J u' - w' J u) for x = (w, u) and y = (w', u'), with J(a, b) = (-b, a)."""
+        """Return [x, y] = (0, w J u' - w' J u) for x = (w, u) and y = (w', u').
+
+        Here J is the rotation by the angle pi/2.
+        """
         return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -93,9 +99,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1 = (w, R u - w J a) for x = (w, u), with J(a, b) = (-b, a).
+        """Return g x g^-1 = (w, R u - w J a) for x = (w, u).
 
-        R is the rotation of g, and a is the translation of g.
+        Here R is the rotation of g, a is the translation of g, and J is the rotation by the angle pi/2.
         """
         c, s, a, b = g
         w, u, v = x
@@ -127,16 +133,16 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x.g for x = (w, u) and g = (c, s, a).
 
-        The result consists of w J (c, s) and w J a + u, with J(a, b) = (-b, a). The vector w J a + u is the
-        velocity of the point a under x.
+        The result is w J (c, s), followed by the velocity w J a + u of the point a. Here J is the rotation by
+        the angle pi/2.
         """
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2.
+        """Return g with (c, s) scaled to length 1 up to O(e^3), where e = 1 - c^2 - s^2.
 
-        In the result, c^2 + s^2 = 1 + O(e^3).
+        The scaling factor is 1 + e/2 + 3 e^2/8.
         """
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 

@@ -9,12 +9,14 @@ from codegen.groups.so3 import SO3
 
 
 class SE23(Semidirect):
-    """Extended poses (R, v, p): attitude R (row by row), velocity v and position p. The product is (R, v,
-    p)(S, u, q) = (R S, v + R u, p + R q).
+    """Extended poses (R, v, p): attitude R (row by row), velocity v and position p.
 
-    An element of the algebra is (w, a, u): the rates of R, v and p at the identity. The exponential is exp(w,
-    a, u) = (exp w, dexp_w a, dexp_w u). An extended pose is represented by the matrix [[R, v, p], [0, 1, 0],
-    [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62 (2017), 1797-1812).
+    An element of the algebra is (w, a, u): the rates of R, v and p at the identity.
+
+    - The product is (R, v, p)(R', v', p') = (R R', v + R v', p + R p').
+    - The exponential is exp(w, a, u) = (exp w, dexp_w a, dexp_w u).
+    - The matrix of an extended pose is [[R, v, p], [0, 1, 0], [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE
+      Transactions on Automatic Control 62 (2017), 1797-1812).
     """
 
     covering_formula = f"{SO3.covering_formula}; the velocity and the position are copied"
@@ -27,5 +29,5 @@ class SE23(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, the velocity, the position"
 
     def with_linear(self, linear: LieGroup) -> SE23:
-        """Return SE_2(3) with ``linear`` as its implementation of the rotations."""
+        """Return SE_2(3) with ``linear`` as the group of rotations."""
         return SE23(linear)

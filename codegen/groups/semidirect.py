@@ -50,17 +50,19 @@ class Semidirect(
 ):
     """The semidirect product of a group G, the linear factor, and a vector space V on which G acts.
 
-    The argument ``representation`` is the representation rho of G on V. V consists of one or more copies of a
-    space. An element is (g, a): the coordinates of g in G, followed by the components of a in V.
+    The argument ``representation`` is the representation rho of G on V. The space V consists of one or more
+    copies of a smaller space. An element is (g, a): the coordinates of g in G, followed by the components of
+    a in V. For x in the algebra of G and z in V, x.z is the action of x on z.
 
     - The product is (g, a)(k, b) = (g k, a + rho(g) b).
     - The element (g, a) maps the point z of V to rho(g) z + a.
     - An element (x, u) of the algebra moves the point z with the velocity x.z + u.
     - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
-    - The exponential is exp(x, u) = (exp x, phi(x) u) with phi(x) = sum of x^k/(k+1)!.
+    - The exponential is exp(x, u) = (exp x, phi(x) u). Here phi(x) is the sum of X^k/(k+1)! over k >= 0, and
+      X is the linear map v -> x.v.
 
-    The product has a capability (:mod:`codegen.groups.capabilities`) if the linear factor has it and the
-    representation has the necessary formulas.
+    The capabilities of the product (:mod:`codegen.groups.capabilities`) depend on the linear factor and on
+    the representation.
     """
 
     covering_formula = (
@@ -85,10 +87,7 @@ class Semidirect(
         self.abelian = False
 
     def _split(self, x: Vector[S]) -> Pair[S]:
-        """Split x = (y, u) into y, which belongs to the linear factor, and the vector u.
-
-        x is an element of the algebra or of its dual.
-        """
+        """Split an element x = (y, u) of the algebra, or of its dual, into y and the vector u."""
         return tuple(x[: self.linear.dim]), tuple(x[self.linear.dim :])
 
     def _element(self, g: Vector[S]) -> Pair[S]:
@@ -105,9 +104,10 @@ class Semidirect(
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if it has the methods of the class ``capability``, otherwise None.
+        """Return this product if it has the operations of the class ``capability``, otherwise None.
 
-        The product has these methods if the linear factor and the representation have the formulas for them.
+        For most capabilities, the linear factor must have the same capability. Some capabilities also need
+        formulas of the representation.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -123,7 +123,7 @@ class Semidirect(
         return own if self.linear.offers(capability) is not None else None
 
     def variants(self) -> Sequence[Semidirect]:
-        """Return one product for each implementation of the linear factor (:meth:`LieGroup.variants`)."""
+        """Return one product for each variant of the linear factor. See :meth:`LieGroup.variants`."""
         return tuple(self.with_linear(variant) for variant in self.linear.variants())
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
@@ -136,7 +136,7 @@ class Semidirect(
         return self.linear.identity(d) + zeros
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return (q r, a + rho(q) b) for g = (q, a) and k = (r, b), with the representation rho."""
+        """Return the product g k = (q r, a + rho(q) b) for g = (q, a) and k = (r, b)."""
         (q, a), (r, b) = self._element(g), self._element(k)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
         return self.linear.mul(d, q, r) + _sum(a, moved)
@@ -148,24 +148,28 @@ class Semidirect(
         return self.linear.require(Inverse).inverse(d, q) + tuple(-x for x in moved)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (exp y, phi(y) u) for x = (y, u), with phi(y) = sum of y^k/(k+1)!."""
+        """Return the exponential (exp y, phi(y) u) of x = (y, u).
+
+        Here phi(y) is the sum of Y^k/(k+1)! over k >= 0, and Y is the linear map v -> y.v.
+        """
         y, u = self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         return self.linear.exp(d, y) + moved
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (exp(y) q, rho(exp y) a + phi(y) u) for x = (y, u) and g = (q, a).
+        """Return the product exp(x) g for x = (y, u) and g = (q, a).
 
-        rho is the representation, and phi(y) is the sum of y^k/(k+1)!.
+        The product is (exp(y) q, rho(exp y) a + phi(y) u). Here rho is the representation, and phi(y) is
+        defined in :meth:`exp`.
         """
         q, y = self._element(g)[0], self._split(x)[0]
         # The linear factor may have a formula for exp(y) q that is shorter than the product of exp(y) and q.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cay y, (1 - Y/2)^-1 u) for x = (y, u), where Y is the matrix of y.
+        """Return cay(x) = (cay y, (1 - Y/2)^-1 u) for x = (y, u), where Y is the matrix of y.
 
-        The matrix of cay y is C = (1 - Y/2)^-1 (1 + Y/2). Therefore (1 - Y/2)^-1 = (1 + C)/2.
+        Let C be the matrix of cay y. The code computes the vector (1 - Y/2)^-1 u as (u + C u)/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -174,13 +178,13 @@ class Semidirect(
         return g + tuple(half * a for a in _sum(u, turned))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v).
+        """Return dcay^{-1}_x y for x = (a, u) and y = (b, v).
 
-        The dot is the action of the algebra on vectors.
+        The result is (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4), where a.v is the action of a on v.
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The vector v - (a.v - b.u)/2 - a.(b.u)/4 is equal to t - a.t/2 with t = v + b.u/2.
+        # Let t = v + b.u/2. The second component of the result is t - a.t/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -188,8 +192,9 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v). The linear factor computes the product
-        a b a, and b.u is the action of b on the vector u.
+        """Return the matrix product x y x, which is (a b a, a.(b.u)) for x = (a, u) and y = (b, v).
+
+        Here b.u is the action of b on the vector u.
         """
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)
@@ -197,9 +202,10 @@ class Semidirect(
         return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u).
+        """Return the product g exp(x) for g = (q, a) and x = (y, u).
 
-        rho is the representation, and phi(y) is the sum of y^k/(k+1)!.
+        The product is (q exp y, a + rho(q) phi(y) u). Here rho is the representation, and phi(y) is defined
+        in :meth:`exp`.
         """
         (q, a), (y, u) = self._element(g), self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
@@ -207,37 +213,36 @@ class Semidirect(
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). a.v is the action of a on v."""
+        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). Here a.v is the action of a on v."""
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u for elements a, b of the algebra that act on vectors v, u of one copy."""
+        """Return a.v - b.u for vectors u and v of one copy of the space. Here a.v is the action of a on v."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
 
     def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the sum of J(a, b) over all copies of the space. J is the momentum map, and a and b are the
-        components of v and p in one copy.
-        """
+        """Return the momentum map J(v, p), summed over all copies of the space."""
         parts = zip(self._copies(v), self._copies(p), strict=True)
         return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (ad*_y m - J(u, p), y^T p) for x = (y, u) and mu = (m, p).
+        """Return ad*_x mu = (ad*_y m - J(u, p), Y^T p) for x = (y, u) and mu = (m, p).
 
-        J is the momentum map, and y^T is the transpose of the map v -> y.v.
+        Here J is the momentum map, and Y is the action of y on vectors.
         """
         (y, u), (m, p) = self._split(x), self._split(mu)
         turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
         return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (z, rho(q) u - z.a) with z = Ad_q y, for g = (q, a) and x = (y, u).
+        """Return Ad_g x for g = (q, a) and x = (y, u).
 
-        rho is the representation, and z.a is the action of z on the vector a.
+        Let z = Ad_q y, let rho be the representation, and let z.a be the action of z on a. The result is
+        (z, rho(q) u - z.a).
         """
         (q, a), (y, u) = self._element(g), self._split(x)
         turned = self.linear.Ad(d, q, y)
@@ -245,9 +250,10 @@ class Semidirect(
         return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a) and x = (y, u).
+        """Return Ad_{g^-1} x for g = (q, a) and x = (y, u).
 
-        rho is the representation, and y.a is the action of y on the vector a.
+        Let rho be the representation, and let y.a be the action of y on a. The result is
+        (Ad_{q^-1} y, rho(q)^-1 (u + y.a)).
         """
         (q, a), (y, _) = self._element(g), self._split(x)
         back = self.linear.require(LeftTranslation).Adinv(d, q, y)
@@ -255,9 +261,9 @@ class Semidirect(
         return back + self._each(lambda v: self.representation.inverse(d, self.linear, q, v), velocity)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_q (m - J(a, p)), rho(q)^T p) for g = (q, a) and mu = (m, p).
+        """Return Ad*_g mu = (Ad*_q (m - J(a, p)), rho(q)^T p) for g = (q, a) and mu = (m, p).
 
-        J is the momentum map, and rho is the representation.
+        Here J is the momentum map, and rho is the representation.
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
         central = _difference(m, self._momentum(d, a, p))
@@ -265,9 +271,10 @@ class Semidirect(
         return self.linear.Adt(d, q, central) + turned
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_{q^-1} m + J(a, r), r) for g = (q, a) and mu = (m, p).
+        """Return Ad*_{g^-1} mu for g = (q, a) and mu = (m, p).
 
-        Here r = rho(q)^-T p, rho is the representation, and J is the momentum map.
+        Let rho be the representation, J the momentum map, and r = rho(q)^-T p. The result is
+        (Ad*_{q^-1} m + J(a, r), r).
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
@@ -276,9 +283,10 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!. J is the momentum map, and D_y and D_u are the
-        derivatives with respect to y and u. If the representation has no closed forms, the code computes the
-        result as (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>).
+        If the representation has closed forms, the method calls :meth:`series`. Otherwise, let J be the
+        momentum map, and let t = phi(y) u with phi(y) from :meth:`exp`. The result is
+        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>), where D_y and D_u are derivatives with respect to y
+        and u.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -300,8 +308,8 @@ class Semidirect(
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
             # If ``dual`` is true, the first component of the result is a sum over all copies of the space.
-            # The element w, the first component of v, must contribute to this sum only once. Therefore w is
-            # passed to ``rule`` for the first copy, and zero for every other copy.
+            # This sum contains the contribution of w once. Therefore ``rule`` receives w for the first copy,
+            # and zero for each other copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -318,42 +326,41 @@ class Semidirect(
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        f is a number, and W(ad_x) is a product of functions of ad_x. If ``dual`` is true, ad*_x is used in
-        place of ad_x. The method ignores the argument ``total``.
+        The factor f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces ad_x.
+        This implementation does not need the argument ``total``.
         """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (y.q, y.a + u) for x = (y, u) and g = (q, a).
+        """Return x.g = (y.q, y.a + u) for x = (y, u) and g = (q, a).
 
-        y.q is the velocity of q in the linear factor, and y.a is the action of y on the vector a.
+        Here y.q is a velocity in the linear factor, and y.a is the action of y on the vector a.
         """
         q, a = self._element(g)
         return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u).
+        """Return g.x = (q.y, rho(q) u) for g = (q, a) and x = (y, u).
 
-        q.y is the derivative of q exp(eps y) at eps = 0, and rho is the representation.
+        Here q.y is the derivative of q exp(eps y) at eps = 0, and rho is the representation.
         """
         q, (y, u) = self._element(g)[0], self._split(x)
         turned = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (x, w - x.a) for the tangent vector v = (x.q, w) at g = (q, a).
+        """Return the element of the algebra for the tangent vector v at g = (q, a).
 
-        x.q is the velocity of q in the linear factor, and x.a is the action of x on the vector a.
+        For v = (x.q, w), the element is (x, w - x.a). Here x.q is a velocity in the linear factor, and x.a is
+        the action of x on the vector a.
         """
         (q, a), (first, w) = self._element(g), self._element(v)
         x = self.linear.require(RightTrivialisation).rate(d, first, q)
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules for products of coordinates of the linear factor. The components of
-        the vector are independent, so they need no rules.
-        """
+        """Return the replacement rules of the linear factor. The vector needs no rules."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -366,12 +373,12 @@ class Semidirect(
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return rho(q) z + a for g = (q, a), with the representation rho."""
+        """Return the image rho(q) z + a of the point z under g = (q, a), with the representation rho."""
         q, a = self._element(g)
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
-        """Return y.z + u for x = (y, u), or y.z if ``translated`` is false. y.z is the action of y on z."""
+        """Return the velocity y.z + u of the point z for x = (y, u). If ``translated`` is false, omit u."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
         return _sum(turned, u) if translated else turned
@@ -424,7 +431,7 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The cover of this product. Its linear factor is the cover of the linear factor of this product."""
+        """The semidirect product of the cover of the linear factor with the same vector space."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
@@ -436,36 +443,28 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q = (r, a) under the covering map. The covering map of the linear factor is
-        applied to r, and a is not changed.
-        """
+        """Return the image (s, a) of q = (r, a). The covering map of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of (r', a) under the covering map, for q = (r, a). r' is the projection of r onto
-        the cover of the linear factor.
-        """
+        """Project q = (r, a) onto the cover, and return the image. The vector a is not changed."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (z, u) for x = (y, u). The element z is the result of this method of the linear factor
-        for y.
-        """
+        """Return the element (z, u) of the cover's algebra for x = (y, u). The linear factor maps y to z."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return one number, the pivot, for each formula of :meth:`lift`. A formula is valid where its pivot
-        is positive.
-        """
+        """Return one pivot for each formula of :meth:`lift`. If a pivot is positive, its formula is valid."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return (r, a) for g = (q, a), where r is an element of the cover of the linear factor.
+        """Return an element (r, a) of the cover, where the covering map of the linear factor maps r to q.
 
-        The covering map takes r to q. The argument ``formula`` is the index of the formula that computes r.
+        Here g = (q, a), and ``formula`` is the index of the formula for r.
         """
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a

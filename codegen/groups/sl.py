@@ -12,9 +12,11 @@ from codegen.ir.domain import Domain
 class SL(MatrixGroup):
     """Matrices of determinant 1 with n >= 2 rows and columns.
 
-    The basis of the algebra consists of the matrices E_ij with i != j, followed by the diagonal matrices
-    E_ii - E_jj with j = i + 1. The matrix E_ij has the entry 1 in row i and column j, and zeros elsewhere.
-    The pairs (i, j) are in lexicographic order.
+    The matrix E_ij has the entry 1 in row i and column j, and zeros elsewhere. The basis of the algebra
+    consists of two lists, each in lexicographic order of (i, j):
+
+    - the matrices E_ij with i != j,
+    - the diagonal matrices E_ii - E_jj with j = i + 1.
     """
 
     def __init__(self, n: int) -> None:

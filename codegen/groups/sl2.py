@@ -12,12 +12,16 @@ from codegen.ir.domain import Domain
 class SL2(CubicAd, MatrixGroup, Projection):
     """Real 2 x 2 matrices of determinant 1, stored row by row. The algebra sl(2) has the basis X, Y, H.
 
-    The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
-    [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
+    The matrices X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]] and H = [[1, 0], [0, -1]] are the basis in section
+    2.2 of H. Marthinsen's thesis. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
 
-    Let A be a traceless matrix, z = det A, and I the unit matrix. Then A^2 = -z I. With the Stumpff functions
-    c_k, this equation implies exp A = c_0(z) I + c_1(z) A and dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2. For
-    z < 0, the values c_k(z) are given by hyperbolic functions.
+    Let A be a traceless matrix, z = det A, I the unit matrix, and c_k the Stumpff functions. The equation
+    A^2 = -z I implies these formulas:
+
+    - The exponential is exp A = c_0(z) I + c_1(z) A.
+    - The differential of the exponential is dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2.
+
+    For z < 0, the functions c_k(z) can be expressed by hyperbolic functions.
     """
 
     signed = True
@@ -26,14 +30,17 @@ class SL2(CubicAd, MatrixGroup, Projection):
         super().__init__("SL(2)", [[[0, 1], [0, 0]], [[0, 0], [1, 0]], [[1, 0], [0, -1]]])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return c_0(z) + c_1(z) A with z = det A, for the matrix A of x and the Stumpff functions c_k."""
+        """Return exp A = c_0(z) I + c_1(z) A, where A is the matrix of x and z = det A.
+
+        Here I is the unit matrix, and c_0 and c_1 are Stumpff functions.
+        """
         z = _determinant(x)
         c0, c1 = d.call("signed_stumpff0", z), d.call("signed_stumpff1", z)
         diagonal = c1 * x[2]
         return (c0 + diagonal, c1 * x[0], c1 * x[1], c0 - diagonal)
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return the number z with ad_x^3 = -z ad_x. It is 4 det A, where A is the matrix of x."""
+        """Return z = 4 det A, where A is the matrix of x. The number z satisfies ad_x^3 = -z ad_x."""
         four: S = d.rational(4)
         return four * _determinant(x)
 
@@ -56,15 +63,13 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, computed by closed forms of exp(x) and dexp*_{-x}."""
+        """Return the momentum Ad*_{exp(-x)} mu + dexp*_{-x} n. Both terms have closed forms."""
         return Coadjoint.transport(self, d, x, n, mu)
 
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return the entries of exp(x) q, followed by the components of the momentum that :meth:`transport`
-        returns.
-        """
+        """Return exp(x) q, followed by the momentum from :meth:`transport`."""
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
