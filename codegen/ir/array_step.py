@@ -33,13 +33,13 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""Counts of operations assume this number of terms in the series of phi(z) = (exp(z) - 1)/z. In an emitted
-step the number of terms depends on the norm of z.
+"""The estimated cost of a step assumes this number of terms in the series of phi(z) = (exp(z) - 1)/z.
+Emitted code chooses the number of terms from the norm of z.
 """
 
 MOST_TERMS = 18
-"""This number of terms in the series of phi(z) = (exp(z) - 1)/z is sufficient if the norm of z is at most 1.
-The remainder is then below the rounding errors.
+"""The largest number of terms in the series of phi(z) = (exp(z) - 1)/z. If the norm of z is at most 1, the
+remainder of the series after these terms is smaller than the rounding errors.
 """
 
 
@@ -53,14 +53,14 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that applies the exponential of B S B^T to a point X. It assigns D to ``target``, where
-    exp(B S B^T) X = X_0 + B D.
+    """A statement that moves a point X to exp(B S B^T) X. It assigns the displacement D of the new point to
+    ``target``, that is, exp(B S B^T) X = X_0 + B D.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
     - ``start`` is the displacement of X, that is, X = X_0 + B * ``start``. If ``start`` is None, X is X_0.
-    - ``start`` has at most the number of rows of ``target``.
+    - ``start`` may have fewer rows than ``target``. The missing rows are zero.
     """
 
     target: Matrix
@@ -70,12 +70,15 @@ class Move:
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications if the series of phi has :data:`TERMS` terms."""
+        """The numbers of additions and multiplications, with :data:`TERMS` terms in the series of
+        phi(z) = (exp(z) - 1)/z.
+        """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The symbols G, S and C are explained at the beginning of this module. The four summands count the
-        # multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. The product
-        # S phi(G S) G C needs one multiplication by the matrix G S for each term of phi, and one by S.
+        # The new point is computed by the last formula at the beginning of this module. The four summands
+        # are the multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. For each
+        # of the ``TERMS`` terms, the last product needs one multiplication by G S. A multiplication by S
+        # follows.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -85,10 +88,11 @@ StepStatement = ArrayStatement | AddUnit | Move
 
 @dataclass(frozen=True)
 class ArrayStep:
-    """The statements ``body`` of one step, which compute the matrix ``result`` from the matrix ``argument``.
+    """The statements of one step. The statements ``body`` compute the matrix ``result`` from the matrix
+    ``argument``.
 
-    If the method has an error estimate, the statements ``estimate`` compute the matrix ``error``. It is the
-    difference between the result and an embedded solution of lower order.
+    If the method has an error estimate, the statements ``estimate`` compute the matrix ``error``. This matrix
+    is the difference between ``result`` and an embedded solution of lower order.
     """
 
     argument: Matrix
@@ -106,13 +110,13 @@ class ArrayStep:
                 yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the constant matrices in the statements, each once, in the order of first use."""
+        """Return the constant matrices in ``body`` without duplicates, in the order of first use."""
         # ``dict.fromkeys`` removes duplicates and keeps the order of first use.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:
-        """Return the numbers of additions and multiplications if the series of phi has :data:`TERMS`
-        terms.
+        """Return the numbers of additions and multiplications of the step, with :data:`TERMS` terms in each
+        series of phi.
         """
         total = {"add": 0, "mul": 0}
         for statement in (*self.body, *self.estimate):
@@ -124,6 +128,6 @@ class ArrayStep:
                     own = statement.operations
                 case _:
                     own = operations(statement)
-            # For :class:`AddUnit`, ``own`` has no entry ``mul``, because no multiplications are needed.
+            # The statement :class:`AddUnit` has no multiplications, so its ``own`` has no entry ``mul``.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

@@ -41,16 +41,16 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""The number of guard bits. They are added to the bits that the requested number of digits needs."""
+"""The number of guard bits, that is, of bits beyond the requested precision."""
 
 
 class BallDomain:
     """An arithmetic with ``digits`` decimal digits. Its scalars are midpoints of Arb balls.
 
     ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
-    scalars, and :meth:`mpf` converts a scalar to an mpmath number. Functions such as exp raise OverflowError
-    for an argument with an absolute value of 2^n or more, where n is
-    :data:`codegen.ir.domain.LARGEST_BITS`.
+    scalars, and :meth:`mpf` converts a scalar to an mpmath number. Let n be
+    :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute value of
+    2^n or more, OverflowError is raised.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -62,7 +62,6 @@ class BallDomain:
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
         # If a fixed-point iteration has not converged after this number of sweeps, Newton's method is used.
-        # The same is true in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -96,8 +95,8 @@ class BallDomain:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         with precision(self.bits + 16):
-            # ``approximate`` returns a decimal text. A precision of b bits corresponds to 0.301 b decimal
-            # digits. The text has b/3 + 5 digits, so its rounding error is negligible.
+            # ``approximate`` returns a decimal text with b/3 + 5 digits, where b is the number of bits. A
+            # number with b bits has only about 0.301 b digits, so the rounding of the text is negligible.
             ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
         return ball.mid()
 
@@ -138,45 +137,45 @@ class BallDomain:
     def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
         """Return the results of a vector function.
 
-        The derivative of the exponential of a matrix A in the direction E is computed with the block matrix
-        that has the block rows (A, E) and (0, A). The first block row of its exponential contains exp(A) and
-        the derivative.
+        Let M be the block matrix with the block rows (A, E) and (0, A). The first block row of exp(M)
+        contains exp(A) and the derivative of exp(A) in the direction E.
 
-        ZeroDivisionError is raised for the inverse of a singular matrix. The exponential of a matrix raises
-        OverflowError if an argument is not finite, or if an entry of the matrix has an absolute value of 2^40
-        or more.
+        ZeroDivisionError is raised for the inverse of a singular matrix. For an exponential, OverflowError is
+        raised if an argument is not finite. OverflowError is also raised if an entry of A has an absolute
+        value of 2^40 or more.
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
-            # ``first`` contains the entries of A. The other numbers are derivatives of A. The result grows
-            # exponentially only with the entries of A, so only these entries are limited.
+            # ``first`` contains the entries of A. The other numbers are derivatives of A. They need no limit,
+            # because the result does not grow exponentially with them.
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(
                     "the exponential of a matrix needs finite entries with absolute values below 2^40"
                 )
-            # Cancellation in the series of the exponential loses up to about 3 * norm bits. The working
-            # precision is therefore increased by 64 + 3 * norm bits, but by at most 64 + 2^13 bits.
+            # Cancellation in the series of exp(A) loses up to about 3 N bits, where N is a bound of the norm
+            # of A. Hence the working precision is increased by 64 + 3 N bits. The increase is limited to
+            # 64 + 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
             return tuple(x.mid() for x in _first_row(result, called.level))
         if isinstance(called, ExponentialAction):
-            # The result is exp(A) y with a matrix A and a vector y. This domain computes the matrix exp(A)
-            # first. Emitted code computes exp(A) y without the matrix exp(A).
+            # The result is exp(A) y with a matrix A and a vector y. Emitted code never forms the matrix
+            # exp(A), but this domain does.
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
-                # Each entry of exp(A) y is a sum whose terms may cancel. With twice the number of bits the
-                # sums remain accurate.
+                # Each entry of exp(A) y is a sum whose terms may cancel. With twice the working
+                # precision, the sums remain accurate.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # The inversion of an ill-conditioned matrix loses many bits. With twice the number of bits
-                # the inverse is accurate for condition numbers up to about 2^``self.bits``.
+                # The inversion of an ill-conditioned matrix loses many bits. With twice the working
+                # precision, the inverse is accurate for condition numbers up to about 2^``self.bits``.
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -197,8 +196,8 @@ class BallDomain:
                 return 2 * ((root / 2).sin() / root) ** 2
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
-        # The series is accurate for z <= 1. For z < 0 all terms are positive, so nothing cancels. For
-        # 0 < z <= 1 the terms decrease fast, so hardly anything cancels.
+        # For z <= 1 the sum of the series is accurate. For z < 0 all its terms are positive. For
+        # 0 < z <= 1 the terms decrease fast, so the cancellation is small.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -213,10 +212,10 @@ class BallDomain:
         It is computed from its series for abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z).
         """
         if abs(z) > 1:
-            # This formula is not used for small z, because c_{k-1} and k c_k both tend to 1/(k-1)!. Their
-            # difference would lose digits.
+            # For small z, c_{k-1} and k c_k are both close to 1/(k-1)!, and their difference would lose
+            # digits.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
-        # The derivative of (-z)^j/(2j+k)! is zero for j = 0, so the sum begins with j = 1.
+        # The series of c_k has the terms (-z)^j/(2j+k)!. The term j = 0 is constant, so its derivative is 0.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -233,7 +232,7 @@ class BallDomain:
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
-        # The second derivatives of the terms j = 0 and j = 1 are zero, so the sum begins with j = 2.
+        # The series of c_k has the terms (-z)^j/(2j+k)!. The second derivatives are 0 for j = 0 and j = 1.
         total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -247,15 +246,15 @@ class BallDomain:
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
-        ``new``.
+        """Return the pair (converged, change) of an iteration.
 
-        The iteration has converged if the change is zero. It has also converged if the change satisfies two
-        conditions:
+        ``change`` is the largest absolute difference between ``old`` and ``new``. ``previous`` is the change
+        of the previous sweep, or None. If the change is zero, the iteration has converged. A positive change
+        must satisfy two conditions:
 
-        - The change is at most 2^12 eps max(1, m), where m is the largest absolute value of the numbers in
-          ``old``.
-        - The change is not smaller than ``previous``, the size of the previous change.
+        - The change is of the size of the rounding errors. It is at most 2^12 eps max(1, m), where m is the
+          largest absolute value in ``old``, and eps is about 10^-``digits``.
+        - The change no longer decreases: it is not smaller than ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # For a NaN all comparisons below are false. Without this test the iteration would continue up to the
@@ -268,20 +267,20 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # For abs(x) <= 1, the quotient has a rounding error of about eps/d and a truncation error of about d.
-        # Both errors have the same size for d = sqrt(eps). For larger abs(x), d is proportional to abs(x).
+        # For abs(x) <= 1, the difference quotient has a rounding error of about eps/d. Its truncation error
+        # is about d. For d = sqrt(eps) the two errors are equal. For larger abs(x), d is sqrt(eps) abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 
 def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
+    """Return the rows of the block matrix of a jet. A jet is a matrix with its derivatives.
 
-    ``numbers`` are the entries of the jet. At level 0 they are the entries of an n x n matrix A. At level 1
-    they are the entries of A and of its derivative E, and the block rows are (A, E) and (0, A).
+    ``numbers`` are the entries of the jet. A jet of level 0 is an n x n matrix A. A jet of level 1 consists
+    of A and a derivative E of A. Its block rows are (A, E) and (0, A).
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of ``numbers`` is a jet A of level ``level`` - 1. The second half is the derivative of A.
+    # The two halves of ``numbers`` are jets of level ``level`` - 1: A and its derivative E.
     half = len(numbers) // 2
     a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
@@ -296,13 +295,13 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
-    # The first block row (A, E) contains all entries of the jet. The second block row is (0, A).
+    # The block rows are (A, E) and (0, A). The first row contains all entries of the jet.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
 
 
 def _exponent(x: arb) -> int:
-    """Return the number e with 2^(e-1) <= abs(x) < 2^e for the midpoint x of a ball, or 0 for x = 0."""
+    """Return the number e with 2^(e-1) <= abs(x) < 2^e for a ball with the midpoint x. For x = 0 return 0."""
     # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
     mantissa, exponent = x.mid().man_exp()
     return int(exponent) + int(mantissa).bit_length() if mantissa else 0

@@ -3,8 +3,9 @@
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
 is not a linear combination itself. Numeric factors of products and powers become coefficients of the linear
-combination. The coefficient of an inverse becomes its numerator. For example, 3/2 (1/sqrt x)^3 becomes
-(3/2)/(x sqrt x). The rewritten expressions are used if they have fewer operations than the given expressions.
+combination. The product c (1/y) of a number and an inverse becomes the quotient c/y. For example,
+3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x). The rewritten expressions are used only if they have fewer
+operations than the given expressions.
 """
 
 from __future__ import annotations
@@ -24,8 +25,9 @@ atom). For a constant term the atom is the expression 1.
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the expressions ``roots`` with their constants combined.
 
-    If the combined expressions do not have fewer operations, ``roots`` is returned unchanged. The expressions
-    in ``kept`` are not expanded. Only their numeric factors may be combined with other numbers.
+    If this does not reduce the number of operations, ``roots`` is returned unchanged. The expressions in
+    ``kept`` are left as they are, but a numeric factor of such an expression may be combined with other
+    numbers.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -37,15 +39,13 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # ``bare`` contains the expressions in ``kept`` without their numeric factors. For example, it contains x
-    # if ``kept`` contains 3 x. The factor 3 may be combined with other numbers.
+    # ``bare`` contains the expressions in ``kept`` without their numeric factors, for example x for 3 x.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # A node in ``bare`` is not expanded: its linear combination is 1 times the node itself.
+            # The node is treated as an atom. Its linear combination has one term with the coefficient 1.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # At this point the keys of ``sums`` are the nodes that are not expanded. The operations in these nodes
-    # are not counted.
+    # The operations inside the nodes of ``bare`` are not counted, because they do not change.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
@@ -63,58 +63,58 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
-    # A negation is not counted, because the sum that contains the negated node becomes a difference. A power
-    # x^n is counted as n - 1 products.
+    # A negation is not counted, because it usually turns a sum into a difference. A power x^n is counted as
+    # n - 1 products.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers y^n of inverse roots y = 1/sqrt x that should be rewritten as quotients.
+    """Return the powers y^n of inverse roots y = 1/sqrt x that are to be rewritten as quotients. For example,
+    y^3 becomes 1/(x sqrt x).
 
-    For example, y^3 becomes 1/(x sqrt x). A power of y is called an intermediate value if it occurs only as a
-    factor of other powers of y. The powers of y are rewritten if all powers that are not intermediate values
-    have odd exponents n >= 3.
+    A power of y is called an intermediate value if it occurs only as a factor of other powers of y. The
+    powers of y are rewritten if every other power has an odd exponent n >= 3.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # The list contains pairs (node, user). The user is a node with the argument ``node``, or None for a root.
+    # The list contains pairs (node, user), where the user has ``node`` as an argument. A root has the user
+    # None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # Let y = 1/sqrt(x). Each node that equals c y^n with a number c gets the pair (node number of y,
-            # n).
+            # Let y = 1/sqrt(x). For each node c y^n with a number c, ``ranks`` contains the pair (node number
+            # of y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pair (node number of y, n) for each power y^n that is not an intermediate value.
-    # For example, y^2 is an intermediate value if it occurs only as a factor of y^3.
+    # ``read`` contains the pairs (node number of y, n) of the powers that are not intermediate values.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If ``read`` contains a pair of y with n = 1 or with an even n, no power of this y is rewritten.
+    # ``bases`` contains each y with a pair in ``read`` whose n is 1 or even. Its powers are not rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if a node equals c y^n, where c is a number and y = 1/sqrt(x).
+    """Return True if a node equals c y^n, where c is a number and y is an inverse root.
 
-    ``inside`` contains a pair (node number of y, exponent n) for each argument of the node that equals c y^n.
-    The pairs may belong to different y.
+    ``inside`` contains one pair (node number of y, n) for each argument of the form c y^n. Two arguments may
+    contain different inverse roots y.
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
 
 def _is_inverse(node: Expr) -> bool:
-    # A node is an inverse if it is a quotient with the numerator 1. Equal expressions are the same object,
-    # so ``is`` compares them.
+    # A node is an inverse if it is a quotient with the numerator 1. A space contains only one object for the
+    # number 1, so ``is`` is sufficient.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -138,11 +138,10 @@ class _Gathering:
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        A term c (1/y) is written as (c/e) (e/y), where e is a positive number. The first term with a given y
-        determines e = |c|. Later terms with the same y use the same e.
+        A term c (1/y) becomes (c/e) (e/y) with a positive number e (see :meth:`_inverse`).
         """
         if node.id not in self.written:
-            # The expression is built only once, so that it stays a shared subexpression.
+            # The expression is built only once for each node, and is stored.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -150,22 +149,21 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        If ``atom`` is an inverse 1/y, the pair is (c/e, e/y) with a positive number e. The first call for
-        this atom determines e = |c|, and all later calls for this atom use the same e. For all other atoms
-        the pair is (c, ``atom``).
+        For an inverse 1/y the pair is (c/e, e/y) with a positive number e. The first call for this inverse
+        sets e = |c|. Later calls use the same e. For every other atom the pair is (c, ``atom``).
         """
         if not _is_inverse(atom):
             return c, atom
-        # ``numerator`` is e, and ``atom`` is 1/y. The term c (1/y) becomes (c/e) (e/y). In the first call for
-        # this atom, c/e is 1 or -1, so the term needs no product. The division e/y is not slower than 1/y.
+        # ``numerator`` is e, and ``atom`` is 1/y. In the first call c/e is 1 or -1, so the term (c/e) (e/y)
+        # needs no multiplication. The division e/y is not slower than 1/y.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
         # Irrational constants are not combined with other numbers, for two reasons. Constants of two
-        # different fields cannot be added. A constant that is known only by an interval (ball) would become
-        # less accurate.
+        # different fields cannot be added. A constant that is only known as a ball (midpoint and radius)
+        # would get a larger radius.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -187,7 +185,7 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # The product (c x)(d y) with numbers c and d becomes c d times the atom x y.
+            # Let c and d be numbers. The product (c x)(d y) becomes the coefficient c d with the atom x y.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -203,9 +201,9 @@ class _Gathering:
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return the linear combination of a node that equals c y^n, where c is a number and y = 1/sqrt x.
+        """Return the linear combination of a node c y^n, where c is a number and y = 1/sqrt x.
 
-        The power y^n is written as 1/x^m for n = 2 m, and as 1/(x^m sqrt x) for n = 2 m + 1.
+        For n = 2 m the power y^n becomes 1/x^m. For n = 2 m + 1 it becomes 1/(x^m sqrt x).
         """
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
@@ -215,8 +213,7 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # In 1/(x^m sqrt x), the processor can compute x^m in parallel with the root. Only the division must
-        # wait for both.
+        # The quotient 1/(x^m sqrt x) is fast, because a processor can compute x^m and sqrt x in parallel.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -224,11 +221,10 @@ class _Gathering:
     def _content(self, node: Expr) -> tuple[Number, Expr]:
         """Return a number c and an expression x such that the node equals c x.
 
-        If the linear combination of the node does not have exactly one term, c is 1.
+        If the node is a sum of several terms, or zero, c is 1.
         """
         total = self.sums[node.id]
-        # A sum of several terms stays as it is, even if its coefficients have a common factor. Other
-        # expressions may contain the same sum.
+        # No common factor is taken out of a sum, because other expressions may contain the same sum.
         if len(total) != 1:
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()
@@ -249,8 +245,8 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     Terms whose coefficients have the same absolute value share one product. For example, 3/2 a - 3/2 b
     becomes 3/2 (a - b).
     """
-    # Terms with the same |c| form a group. For example, 3/2 a - 3/2 b is one group and needs one product. A
-    # dictionary keeps the order of insertion, so the order of the sum depends only on the given terms.
+    # Terms with the same |c| form a group. For example, 3/2 a - 3/2 b is one group and needs one product.
+    # The groups have the order of their first terms.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -264,7 +260,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # A group whose first term is negative is subtracted. The constant factor of every group is therefore
-        # positive. Emitted code then does not need both c and -c as constants.
+        # If the first term of a group is negative, the group is subtracted. Hence the factor of a group is
+        # never negative, and emitted code does not need both constants c and -c.
         result = result - part if first else result + part
     return result

@@ -48,7 +48,7 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
     """Convert a condition of sympy to a :data:`Condition`. The function ``node`` converts the two sides of a
-    comparison from sympy to :class:`Expr`. ``where`` is the place of the formula for error messages.
+    comparison from sympy to :class:`Expr`. Error messages give ``where`` as the place of the formula.
 
     A condition may contain comparisons that are joined by And, Or and Not. For all other conditions,
     :class:`SceneError` is raised.
@@ -86,7 +86,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             return negation(below)
         case sympy.LessThan():
             return negation(above)
-        # The values a and b are equal if a > b and b > a are both false.
+        # The numbers a and b are equal if neither is larger than the other.
         case sympy.Ne():
             return negation(both(negation(above), negation(below)))
         case _:

@@ -26,7 +26,7 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
-    # A number with b bits is determined by at most 0.30103 b + 2 digits, so the loop always ends with
+    # For b bits, 0.30103 b + 2 decimal digits always determine the number. Hence the loop always ends with
     # ``break``.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)
@@ -36,11 +36,10 @@ def decimal(value: sympy.Float) -> Fraction:
 
 
 def exact(value: object) -> Fraction | None:
-    """Convert a number of the user's input to an exact fraction. Return None if ``value`` is not a rational
-    number.
+    """Convert a number from the user's input to an exact fraction. If ``value`` is not a rational number,
+    return None.
 
-    Python integers, fractions, floats, numbers of NumPy, rational numbers of sympy and texts such as "1/10"
-    are accepted.
+    ``value`` may be a number of Python, NumPy or sympy, or a text such as "1/10".
 
     >>> exact(0.1), exact("1/3"), exact("x")
     (Fraction(1, 10), Fraction(1, 3), None)

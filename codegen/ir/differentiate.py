@@ -1,5 +1,5 @@
-"""Reverse-mode differentiation of expressions. The cost of a gradient is a small multiple of the cost of the
-function.
+"""Reverse-mode differentiation of expressions. A gradient costs only a few times as much as the function
+itself.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     # A node is visited after all nodes that use it. At this point its adjoint is complete.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # The terms of an adjoint may cancel exactly. A node with the adjoint zero adds nothing to the
-        # adjoints of its arguments.
+        # An adjoint may be zero, because its terms may cancel. Such a node does not change the adjoints of
+        # its arguments.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    ``moving`` contains the node numbers of all nodes that depend on the variables of differentiation. If
-    ``moving`` is given, a vector function is differentiated only with respect to arguments in ``moving``. For
-    its other arguments the returned list contains zeros.
+    Derivatives of vector functions are expensive. Therefore a caller may pass ``moving``, the node numbers of
+    the nodes that depend on the variables. For all other arguments of a vector function, the returned list
+    contains zeros.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -73,8 +73,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # The derivative of a vector function consists of many expressions, so it is computed only if
-            # needed.
+            # The derivative of a vector function consists of many expressions. It is computed only for the
+            # arguments that depend on the variables.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -82,7 +82,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
-    """Return the partial derivatives of ``node``, a call of a scalar function, with respect to its arguments.
+    """Return the partial derivatives of a scalar function with respect to its arguments. ``node`` is a call
+    of this function.
 
     The Stumpff functions c_k satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
     """
@@ -94,8 +95,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
-            # The derivatives of atan2(a, b) with respect to a and b are b/(a^2 + b^2) and -a/(a^2 + b^2). The
-            # variable ``x`` is a.
+            # The node is atan2(x, b). Its derivatives with respect to x and b are b/(x^2 + b^2) and
+            # -x/(x^2 + b^2).
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
@@ -110,14 +111,14 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # The Stumpff function c_0 has the derivative -c_1/2. ``signed_stumpff0`` has the same derivative,
-        # because it is c_0 for arguments of either sign.
+        # The Stumpff function c_0 has the derivative -c_1/2. Both functions compute c_0.
+        # ``signed_stumpff0`` is used if the argument may be negative.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # The formula c_k' = (k c_{k+2} - c_{k+1})/2 contains c_4 for k = 2, and c_5 for k = 3. Emitted code
-        # has no functions for c_4 and c_5. It has the functions ``slope2`` for c_2' and ``slope3`` for c_3'.
+        # The formula for c_2' contains c_4, and the formula for c_3' contains c_5. Emitted code has no
+        # functions for c_4 and c_5. Therefore the functions ``slope2`` and ``slope3`` compute c_2' and c_3'.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "slope2" | "slope3" as name:
@@ -151,8 +152,8 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # A small change of x usually does not change the selected formula, so the derivative with respect to x is
-    # 0. The derivative with respect to a constant a or b is not needed and is also set to 0.
+    # The variable x only selects a or b. Hence the derivative with respect to x is 0, except at the jump at
+    # x = 0. For a constant a or b the derivative is not needed, and is set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]
