@@ -1,9 +1,9 @@
-"""Domains: the arithmetics in which the steps of integrators and the operations of Lie groups are evaluated.
+"""Domains: number types for the steps of integrators and the operations of Lie groups.
 
 The numbers (scalars) of a domain are floats, mpmath numbers, truncated power series in h, or expressions.
 Every group operation is implemented once, for all domains. Evaluation with expressions gives the formulas of
-emitted code. Scalars support the arithmetic operators. The domain supplies constants, named functions, the
-step size h, and the test whether a fixed-point iteration has converged."""
+emitted code. All scalars have the operators +, -, * and /. The domain supplies constants, named functions,
+the step size h, and a convergence test for iterations."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """An arithmetic: its methods create scalars and evaluate functions. The scalar ``h`` is the step size."""
+    """The methods of a domain create scalars and evaluate functions. The scalar ``h`` is the step size."""
 
     h: Scalar
 
@@ -49,18 +49,18 @@ class Domain(Protocol):
         """Return the rational number p/q as a scalar of this domain."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a scalar function, such as a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+        """Return the value of the scalar function with this name (:data:`codegen.ir.expr.FUNCTIONS`)."""
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
-        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep."""
+        The change is the largest absolute difference. ``previous`` is the previous change or None."""
 
 
 class Differenced(Domain, Protocol):
-    """A domain in which Newton's method can use difference quotients in place of derivatives."""
+    """A domain in which Newton's method replaces derivatives by difference quotients."""
 
     def increment(self, x: Scalar) -> Scalar:
         """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
@@ -70,8 +70,8 @@ def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
     z.
 
-    For large z the function oscillates. The error is then a few units in the last place of the amplitude of
-    the oscillation. For z > 2^52 the result is NaN, as in emitted code.
+    For large z the function oscillates. Relative to the amplitude, the error is then a few rounding units.
+    For z > 2^52 the result is NaN, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
@@ -119,7 +119,7 @@ def slope(k: int, z: float) -> float:
     (True, True)
     """
     if abs(z) > 1:
-        # For small z this formula would lose digits, because both terms tend to 1/(k-1)! and cancel.
+        # For small z this formula loses digits: c_{k-1} and k c_k both tend to 1/(k-1)! and cancel.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
     for j in range(12, 0, -1):
@@ -182,19 +182,18 @@ class FloatDomain:
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
-        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep."""
+        """Return the pair (converged, change), see :meth:`Domain.settled`."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         # All comparisons below are false for a NaN. Without this test, a NaN would not end the iteration.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The change is compared with the largest unknown. A small unknown may be the sum of large terms that
-        # cancel, and it then contains the rounding errors of these terms.
+        # The change is compared with the largest unknown. A small unknown may be a sum of large terms that
+        # cancel. Its error is then as large as the rounding errors of these terms.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # The rate of convergence is about change/before, so the remaining error is about change^2/before.
-        # This error must be below half a unit in the last place. The rate is computed from only two changes
-        # and may be wrong, so the change itself must also be small.
+        # Each sweep multiplies the change by about q = ``change``/``before``. The next change, q times
+        # ``change``, must be below half a unit in the last place. Two changes give only a rough value of q,
+        # so ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
@@ -209,14 +208,14 @@ class FloatDomain:
 
 
 LARGEST_BITS = 16384
-"""In :class:`PreciseDomain`, the arguments of functions must be smaller than 2^LARGEST_BITS in size."""
+"""In :class:`PreciseDomain`, arguments of functions have absolute values below 2^LARGEST_BITS."""
 
 
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
     context. OverflowError is raised if the absolute value of an argument of a function is
-    2^:data:`LARGEST_BITS` or more. A divergent iteration thus ends early. Otherwise mpmath would spend a long
-    time on functions of numbers with millions of digits."""
+    2^:data:`LARGEST_BITS` or more. This error ends a divergent iteration before its numbers have millions
+    of digits. For such numbers, mpmath functions need a long time."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -307,13 +306,11 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
-        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep. An iteration
-        has converged if the change is zero, or if it is at most 2^12 rounding units and not decreasing."""
+        """Return the pair (converged, change), see :meth:`Domain.settled`. The iteration has converged if the
+        change is at most 2^12 rounding units and no longer decreases, or if the change is zero."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # While the change of the unknowns decreases from sweep to sweep, a further sweep gives more correct
-        # digits. The iteration ends when the change is small and no longer decreases.
+        # While the change decreases from sweep to sweep, a further sweep gives more correct digits.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -344,9 +341,9 @@ class SeriesDomain:
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
-        cannot be computed exactly. Sine, cosine, exponential and similar functions require an argument
-        without constant term. ``quotient`` divides two series. If h^v is the lowest power in the divisor, the
-        last v coefficients of the quotient are unknown and are set to zero."""
+        cannot be computed exactly. For example, the argument of sin must have no constant term. The function
+        ``quotient`` divides two series. If the divisor begins with the power h^v, the coefficients of the v
+        highest powers of h in the quotient are unknown. These coefficients are set to zero."""
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -368,12 +365,12 @@ class SeriesDomain:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. The index k + 2 may be larger than 3.
+            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. Here c_k is also available for k > 3.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
             k = int(function[-1])
-            # The formula for c_k'' follows if the rule c_k' = (k c_{k+2} - c_{k+1})/2 is applied twice.
+            # The rule c_k' = (k c_{k+2} - c_{k+1})/2, applied twice, gives this formula for c_k''.
             c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
             return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
@@ -385,24 +382,24 @@ class SeriesDomain:
         if function in ("atan", "asin"):
             return self._arc(function, z)
         if function not in starts:
-            raise ArithmeticError(f"the function {function} has no rule for exact power series")
+            raise ArithmeticError(f"the function {function} cannot be computed for exact power series")
         k, step, first = starts[function]
-        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. The series of
-        # exp, sinh and cosh have no alternating signs, so the argument of ``_sum`` is negated for them.
+        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. All
+        # coefficients of exp, sinh and cosh are positive. A negated argument of ``_sum`` gives these series.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h, 1 or -1. :class:`Kink` is raised if the constant term of
-        the series is zero."""
+        """Return the sign (1 or -1) of the constant term of a series. If the constant term is zero,
+        :class:`Kink` is raised."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
-            raise Kink("the field is not smooth at the initial state")
+            raise Kink("the vector field is not smooth at the initial state")
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:
-        """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise ArithmeticError is
-        raised, because the angle at h = 0 is not an algebraic number."""
+        """Return the series atan2(y, x). At h = 0, the point (x, y) must be on the positive x-axis. Other
+        points cause an ArithmeticError, because their angles are not algebraic numbers."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
             raise ArithmeticError("atan2(y, x) is exact only if (x, y) is on the positive x-axis at h = 0")
         return self._arc("atan", y / x)
@@ -414,7 +411,7 @@ class SeriesDomain:
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z or asin z by its Taylor series.
 
-        Term j is f z^(2j+1)/(2j+1) with a factor f: (-1)^j for atan, and binom(2j, j)/4^j for asin."""
+        Term j is z^(2j+1)/(2j+1), multiplied by (-1)^j for atan and by binom(2j, j)/4^j for asin."""
         total, power = self.ring.zero, z
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
@@ -424,8 +421,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if the
-        series a begins with a lower power of h than b, because a/b then has a pole at h = 0."""
+        """Return the series a/b. If all coefficients of b are zero, return 0. ArithmeticError is raised if
+        a/b has a pole at h = 0, that is, if a begins with a lower power of h than b."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -437,34 +434,34 @@ class SeriesDomain:
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return a sum over all j >= 0. Term j is ``first`` * (-z)^j * k!/(``step`` * j + k)!."""
+        """Return the sum of the terms ``first`` * (-z)^j * k!/(``step`` * j + k)! for j = 0, 1, ..."""
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The divisor is the quotient of the factorials (step j + k)! and (step (j - 1) + k)!.
+            # The divisor is (step j + k)!/(step (j - 1) + k)!.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # The series z has no constant term, so the lowest power of h increases from term to term. When it
-            # is above h^order, the truncated term is zero and the loop ends.
+            # The series z has no constant term, so the lowest power of h increases from term to term. Powers
+            # above h^order are truncated. After some terms, ``term`` is therefore zero.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, None). ``converged`` is true if ``old`` and ``new`` are equal."""
+        """Return (True, None) if ``old`` and ``new`` are equal, otherwise (False, None)."""
         # Each sweep multiplies the error by O(h), so it gives one more correct coefficient. Convergence takes
         # about order + 1 sweeps.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """The arithmetic of symbolic expressions of one space. The step size ``h`` is a symbol. Iterations are
-    not executed in this domain, but become loops of the emitted code."""
+    """The arithmetic of symbolic expressions. The step size ``h`` is a symbol. This domain does not execute
+    iterations. In emitted code, each iteration is a loop."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # Each key is the number of the node of a time t. Equal times are one node and have the same key.
+        # The key of a time t is ``t.id``. Equal expressions t have the same key.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -480,15 +477,15 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions: scalar formulas if the function supplies
-        them for these arguments, otherwise one call node for each result."""
+        """Return the results of a vector function as expressions. If ``expanded`` gives no simpler
+        expressions, each result is a call of the function."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return one symbol for each name: the value of the function with this name at the time t. The caller
-        of the emitted code supplies these functions of time. Equal times give the same symbols."""
-        # If several stages have the same time, emitted code calls each function only once for this time.
+        """Return symbols for the values of functions at the time t. ``names`` are the names of the functions,
+        which the caller of the emitted code supplies. Equal times give the same symbols."""
+        # Emitted code calls a function only once for each time, even if several stages have the same time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

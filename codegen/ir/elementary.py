@@ -1,8 +1,7 @@
 """The elementary functions tan, sinh, cosh, tanh, atan, asin and acos, with their derivatives.
 
-A user's formulas may call these functions, and also sqrt, sin, cos, exp and log. The table :data:`ELEMENTARY`
-contains the first and second derivatives of each function f of this module. The Taylor series of f(a(t)) is
-computed by the chain rule, from the first derivative of f.
+Formulas of a user may call these functions. The table :data:`ELEMENTARY` contains the first and second
+derivatives of each function f. The chain rule gives the Taylor series of f(a(t)) from the first derivative.
 """
 
 from __future__ import annotations
@@ -18,13 +17,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Elementary:
-    """A function f of one argument x.
+    """A function of one variable x. The value of the function at x is f.
 
-    - ``slope(x, f)`` is the first derivative at x. The second argument of ``slope`` is the value f(x).
-    - ``curvature(x, f)`` is the second derivative at x, with the same arguments.
-    - ``at_zero`` is f(0), or None if f(0) is not rational.
-    - ``raising`` is true if Python raises an exception for some arguments. C computes a NaN or an infinity
-      for these arguments.
+    - ``slope(x, f)`` is the first derivative at x.
+    - ``curvature(x, f)`` is the second derivative at x.
+    - ``at_zero`` is the value at x = 0. If this value is not rational, ``at_zero`` is None.
+    - ``raising`` is true if Python raises an exception for some x. C computes a NaN or an infinity instead.
     """
 
     name: str
@@ -65,8 +63,7 @@ def _arccosine(x: Expr, f: Expr) -> Expr:
 
 
 def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
-    # The first derivative of asin is s = (1 - x^2)^(-1/2), and the second derivative is x s^3. For acos, both
-    # derivatives have the opposite sign, so the formula x s^3 is true again.
+    # For asin and acos, the second derivative is x s^3, where s is the first derivative.
     return lambda x, f: x * slope(x, f) ** 3
 
 

@@ -6,9 +6,9 @@ vector y is then multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. 
 SIAM J. Sci. Comput. 33 (2011) 488). One multiplication replaces y by y + B (p/m!), where m is the degree of
 the polynomial. Horner's rule computes the vector p, the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
 
-The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
-error in every step of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
-executes the same operations in the same order as :meth:`ExponentialAction.in_doubles`.
+The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and their
+errors would be the same in every step of an integrator. For a skew matrix A, the length of y would then
+drift. Emitted code and :meth:`ExponentialAction.in_doubles` execute the same operations in the same order.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ would take too long. If a matrix needs more halvings, all results are NaN.
 """
 
 SPARSE = 12
-"""If a matrix A has at most this number of rows, its zero entries are not passed as arguments. Emitted code
-then contains one sum for each row of A in place of a loop.
+"""The largest number of rows of a matrix whose zero entries are not passed as arguments. For these matrices,
+emitted code contains a separate sum for each row. For larger matrices, it contains a loop over all entries.
 """
 
 
@@ -40,20 +40,19 @@ then contains one sum for each row of A in place of a loop.
 def degrees(bits: int) -> tuple[int, ...]:
     """Return the available degrees of the Taylor polynomial, for floating-point numbers with ``bits`` bits.
 
-    The largest degree is the largest number m for which the integers m!/j! with 0 <= j <= m need no rounding.
-    The other degrees are m - 4, m - 8, and so on.
+    For the largest degree m, the integers m!/j! with 0 <= j <= m need no rounding. For m + 1, some of them
+    need rounding. The other degrees are m - 4, m - 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
     # The odd part of an integer is the integer without its factors 2. An integer needs no rounding if its
-    # odd part has at most ``bits`` bits. It is sufficient to test m!, because the odd part of m!/j! divides
-    # the odd part of m!.
+    # odd part has at most ``bits`` bits. The odd part of m!/j! divides the odd part of m!, so only m! is
+    # tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Only every fourth degree is in the list. Each degree that is left out is replaced by the next larger
-    # degree in the list, which needs at most three more products with A.
+    # Only every fourth degree is returned. The next larger degree costs at most three more products with A.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -64,12 +63,12 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return one bound for each degree m of :func:`degrees`, for numbers with ``bits`` bits. The Taylor
-    polynomial of degree m is used only for a matrix whose norm is at most the bound of m.
+    """Return the largest permitted norm of a matrix for each degree of :func:`degrees`.
 
-    The norm is the largest row sum of absolute values. The bound is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)),
-    rounded to three digits. With this bound, the truncation error of the Taylor polynomial is about 2^-10
-    times the unit roundoff 2^-bits. A larger truncation error could accumulate during a long run.
+    The norm is the largest row sum of absolute values. For degree m, the largest permitted norm is
+    ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The truncation error of the Taylor
+    polynomial is then about 2^-10 times the unit roundoff 2^-bits. Larger truncation errors could add up over
+    many steps.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -107,9 +106,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """One tuple for each row of A. The tuple of a row contains one pair for each entry of the row that is
-        an argument. The pair consists of the index of the argument and the column of the entry.
-        """
+        """For each row of A, a tuple of pairs (k, j). Argument k is the entry of this row in column j."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -124,8 +121,8 @@ class ExponentialAction(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The estimated numbers of additions and multiplications. The estimate assumes that the Taylor
-        polynomial has degree 18 and is applied once.
+        """The estimated numbers of additions and multiplications for one product of y with a
+        Taylor polynomial of degree 18.
         """
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
@@ -133,8 +130,8 @@ class ExponentialAction(VectorFunction):
     def matrix(self, args: Sequence[Scalar], zero: Scalar) -> list[Scalar]:
         """Return all entries of A, row by row.
 
-        ``args`` begins with the entries of A that are arguments of the function. ``zero`` is used for all
-        other entries.
+        ``args`` begins with the entries of A that are arguments of the function. All other entries are
+        ``zero``.
         """
         result = [zero] * self.n**2
         for place, x in zip(self.places, args, strict=False):
@@ -156,19 +153,19 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # The block matrix contains zeros. If it has at most ``SPARSE`` rows, ``expanded`` removes the zeros
-        # from the arguments.
+        # If the block matrix is small, ``expanded`` removes its zeros from the arguments.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return expressions for exp(A) y if a simplification is possible, otherwise None.
+        """Return simpler expressions for exp(A) y, or None.
 
-        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call whose
-        arguments are the non-zero entries of A, followed by y.
+        - If A is zero, the result is y.
+        - If A has at most :data:`SPARSE` rows, the result is a call with the non-zero entries of A and y.
+        - In all other cases, and if ``pattern`` is not 0, the result is None.
         """
-        # If ``pattern`` is not 0, the zero entries of A have already been removed from the arguments.
+        # If ``pattern`` is not 0, the arguments do not include the zero entries of A.
         if self.pattern:
             return None
         size = self.n**2
@@ -177,8 +174,8 @@ class ExponentialAction(VectorFunction):
         # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # For a matrix with more than ``SPARSE`` rows, a separate sum for each row would make the emitted code
-        # long. A loop over all entries of the matrix is shorter, so the zero entries remain arguments.
+        # For a large matrix, emitted code contains a loop over all entries, because separate sums for the
+        # rows would be long. The loop needs the zero entries, too.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
@@ -197,7 +194,7 @@ class ExponentialAction(VectorFunction):
             norm = max(norm, total)
         norms = largest_norms(53)
         scale, parts = 1.0, 1
-        # The test ``parts < 2**HALVINGS`` also ends the loop for an infinite norm.
+        # For an infinite norm, the test ``parts < 2**HALVINGS`` ends the loop.
         while norm * scale > norms[-1] and parts < 2**HALVINGS:
             scale, parts = 0.5 * scale, 2 * parts
         norm *= scale
@@ -211,7 +208,7 @@ class ExponentialAction(VectorFunction):
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # The new ``weight`` is m!/(k - 1)!, where m is ``degree``. This integer is exact.
+                # The next line changes ``weight`` from m!/k! to m!/(k - 1)! with m = ``degree``, exactly.
                 weight *= k
                 # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
@@ -222,7 +219,8 @@ class ExponentialAction(VectorFunction):
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return exp(A) y for mpmath numbers.
 
-        A is an n x n matrix with entries a_ij. :class:`OverflowError` is raised if n max abs(a_ij) >= 2^40.
+        A is an n x n matrix. :class:`OverflowError` is raised if an entry of A has an absolute value of
+        2^40/n or more.
         """
         entries, rows = len(self.places), self.rows
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
@@ -254,15 +252,14 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # The series has at most n (p + 1) non-zero terms, where p is ``ring.order``. To see this, let A_0
-        # be the nilpotent matrix of the constant terms, so that A_0^n = 0. If the power A^(n (p + 1)) is
-        # expanded, each summand contains the factor A_0^n = 0, or a power of h that is truncated.
+        # Let A_0 be the matrix of the constant terms, and p = ``ring.order``. If A_0 is nilpotent, A_0^n = 0.
+        # Each summand of A^(n (p + 1)) then contains the factor A_0^n = 0 or a power of h above h^p, which is
+        # truncated. The loop therefore finds a zero term.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each term is computed from the previous term by a product with A. If one term is zero, all later
-            # terms are therefore zero.
+            # Each term is a multiple of A times the previous term. After a zero term, all terms are zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]
@@ -274,8 +271,8 @@ def _product(
 ) -> list[Scalar]:
     """Return A y.
 
-    ``a`` contains the entries of A that may be non-zero. ``rows`` contains a sequence for each row of A. For
-    each entry of the row that is in ``a``, the sequence contains a pair: the index in ``a``, and the column.
+    ``a`` contains the entries of A that may be non-zero. ``rows`` contains pairs (k, j) for each row of A:
+    ``a[k]`` is the entry of this row in column j.
     """
     result = []
     for row in rows:
