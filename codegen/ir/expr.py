@@ -1,10 +1,10 @@
 """Scalar expressions. An expression is an immutable node of a :class:`Space`.
 
-A space stores equal expressions only once, so they are the same object. Nodes are numbered in the order of
-their creation, and each compilation uses a new space. Hence the order of operands and the emitted text depend
-only on the input of the compilation. New nodes are simplified by local rules. For example, x - x becomes 0. A
-nested sum (a + b) + c is not replaced by one sum of three terms, because other expressions could then no
-longer share the subexpression a + b.
+In a space, equal expressions are the same object. Nodes are numbered in the order of their creation, and each
+compilation uses a new space. Therefore the emitted text depends only on the input of the compilation.
+
+Local rules simplify new nodes. For example, x - x becomes 0. A nested sum (a + b) + c is not replaced by one
+sum of three terms. Other expressions can thus share the node a + b.
 
 The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
 ``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The type of ``Expr.payload``, the data of a node besides its arguments. The payload is the number of a
-``const``, the name of a ``sym``, the exponent of a ``pow``, and the function of a ``call``. The function is
-given by its name or as a :class:`PiecewisePolynomial`. For ``add``, ``sub``, ``mul``, ``div`` and ``neg`` the
-payload is None.
+"""The type of ``Expr.payload``.
+
+The payload is the number of a ``const``, the name of a ``sym``, the exponent of a ``pow``, or the function of
+a ``call``. A function is a name or a :class:`PiecewisePolynomial`. All other nodes have the payload None.
 """
 
 FUNCTIONS = (
@@ -135,8 +135,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # Arguments are created before the nodes that use them, so an argument has a smaller number than its
-        # user. The order by number is therefore a topological order.
+        # The arguments of a node are created before the node, so their numbers are smaller. Nodes sorted by
+        # number are therefore in topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -147,7 +147,7 @@ class Space:
         """Return ``value`` as a node of this space. A number becomes a constant node."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # The number of a node identifies it only within its own space.
+                # Nodes of different spaces may have the same number.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -204,8 +204,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Here a = -x. The difference -x - b is replaced by -(x + b). This negation often disappears: the
-            # sum y + (-(x + b)) becomes the difference y - (x + b).
+            # Here a = -x. The difference -x - b is replaced by -(x + b). If this node is added to a node y,
+            # the sum becomes y - (x + b), without a negation.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -223,20 +223,20 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # For constants c and d, the product c (d x) becomes (c d) x. The product c d is exact. It is
-            # rounded to a double only when it is printed.
+            # For constants c and d, the product c (d x) becomes (c d) x. The constant c d is exact, because
+            # constants are rounded only when they are printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # Here b = -y. If a is a constant, the product is (-a) y, where -a is also a constant. Otherwise
-            # the product is -(a y), so that other expressions can share the node a y.
+            # Here b = -y. If a is a constant, the product a b becomes (-a) y. Otherwise, a b becomes -(a y),
+            # and other expressions can share the node a y.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
-        # The factors are sorted by node number, so that a b and b a are one node. A constant factor stays
-        # first, because compiler passes look for it there.
+        # The factors are sorted by node number. Therefore a b and b a are one node. A constant factor remains
+        # the first argument, because compiler passes expect it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))
@@ -248,8 +248,8 @@ class Space:
         if a is self.zero:
             return self.zero
         if b.op == "const":
-            # A product is several times faster than a division. The constant 1/b is
-            # rounded to a double only when it is printed.
+            # A multiplication by 1/b is several times faster than a division by b. The constant 1/b is exact
+            # until it is printed.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
         # a/a becomes 1, although a may be zero at some point. A divisor is always assumed to be non-zero.
         if a is b:
@@ -285,16 +285,15 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the value of ``function`` at the arguments ``args``: a call node or a simpler expression.
+        """Return the value of ``function`` at the arguments ``args``, simplified if possible.
 
-        ``function`` is a name in :data:`FUNCTIONS`, the name of one result of a vector function (such as
-        ``inverse5.7``, result 7 of ``inverse5``), or a table of class :class:`PiecewisePolynomial`.
+        ``function`` is a name in :data:`FUNCTIONS`, a :class:`PiecewisePolynomial`, or the name of one result
+        of a vector function. For example, ``inverse5.7`` is the result of ``inverse5`` with the index 7.
         """
         known = _folded(function, args)
         if known is not None:
             return known
-        # A table of class ``PiecewisePolynomial`` is also a string. Each table is a different string, so
-        # ``FUNCTIONS`` cannot contain all tables.
+        # ``FUNCTIONS`` does not contain piecewise polynomials.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test, an unknown name would cause an error only when the expression is printed.
@@ -304,8 +303,7 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return one call node for each result of a vector function (:mod:`codegen.ir.vector_function`)."""
-        # The nodes of all results have the same arguments. The emitter thus recognises that they are results
-        # of one call.
+        # All these nodes have the same arguments. Therefore the emitter can compute all results in one call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
@@ -319,7 +317,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
-        # An inner call ``choose(x, 1, -1)`` stores the truth value of the condition x > 0 as 1 or -1.
+        # An inner call ``choose(x, 1, -1)`` is 1 if x > 0, and -1 otherwise.
         test, *values = args[0].args
         # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``, because the value of the inner call
         # is positive exactly where x is positive.
@@ -334,17 +332,16 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants have a common ring. Their sum and product can then be computed exactly."""
-    # Every ring contains the rational numbers, so a rational constant belongs to the ring of the other
-    # constant, too.
+    """Return True if the sum and the product of two constants can be computed exactly in a common ring."""
+    # Every ring contains the rational numbers.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield each node of the expressions once, arguments before the nodes that use them.
+    """Yield each node of the expressions once. The arguments of a node are yielded before the node.
 
-    The arguments of a node for which ``stop`` is true are not visited.
+    If ``stop`` is true for a node, the walk does not continue to the arguments of this node.
     """
     # An explicit stack is used in place of recursion, because expressions may be nested more deeply than
     # Python's recursion limit allows. The loop is written for speed, because a compilation visits millions of
@@ -365,8 +362,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The arguments of ``arg`` are visited before ``arg``. Meanwhile the stack stores ``node``
-                    # and the iterator over the remaining arguments of ``node``.
+                    # The arguments of ``arg`` are visited next. The stack ``users`` stores ``node`` and an
+                    # iterator over the remaining arguments of ``node``.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -389,10 +386,10 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
     """Return the values of the expressions ``roots`` in an arithmetic ``domain`` (:mod:`codegen.ir.domain`).
 
-    ``values`` contains the value of each symbol. If the scalars of ``domain`` are expressions, the value of a
-    symbol is the expression that replaces the symbol.
+    ``values`` contains the value of each symbol. If the scalars of ``domain`` are expressions, each symbol is
+    replaced by an expression.
     """
-    # ``roots`` is read twice below. It may be an iterator, which can be read only once, so it is copied.
+    # ``roots`` may be an iterator, which can be read only once. The list can be read twice.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
     # All results of a call of a vector function are computed together. A key of ``vectors`` consists of the

@@ -74,8 +74,8 @@ class ArrayMethod:
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
-    The compiler passes rewrite the program of a step. They do not depend on the field or on the size of the
-    matrices, so each pass is verified on a small problem on the sphere. MethodError is raised if
+    Each compiler pass is verified on a small problem on the sphere. This test is sufficient, because the
+    passes do not depend on the field or on the size of the matrices. MethodError is raised if
     :func:`array_kernel` cannot translate the method.
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
@@ -94,8 +94,8 @@ def compiled(
     ``refusal`` returns the error that is raised for a method with implicit stages.
     """
     lowered = lower(model, method)
-    # In the lowered program each stage is a block of equations. ``blocks.run`` replaces the blocks of
-    # explicit stages by assignments, so only implicit stages remain blocks.
+    # At first, each stage is a block of equations. ``blocks.run`` replaces the blocks of explicit stages by
+    # assignments. The remaining blocks are implicit stages.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -120,8 +120,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of a step program on a scene whose field is given by formulas with matrices.
 
-    MethodError is raised if the program has implicit stages, or an operation that is not available for large
-    matrices.
+    MethodError is raised if the program has implicit stages. It is also raised if an operation of the program
+    is not available for large matrices.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -130,7 +130,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
     # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
-    # expressions. The order 0 is a placeholder that the caller replaces.
+    # expressions. The caller replaces 0 by the order of the error estimate.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -139,9 +139,9 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 class _Builder:
     """Collects the statements of one step.
 
-    All values are represented with a matrix B, which is called the basis. An element of the algebra is the
-    matrix B S B^T, and S is called its core. A point is the matrix X_0 + B D, where X_0 is the old state. The
-    matrix D is called the displacement of the point (:mod:`codegen.ir.array_step`).
+    The matrix B is called the basis of the step (:mod:`codegen.ir.array_step`). An element of the algebra has
+    the form B S B^T, where the matrix S is called its core. A point has the form X_0 + B D, where X_0 is the
+    old state. The matrix D is called the displacement of the point.
     """
 
     program: Program
@@ -175,7 +175,7 @@ class _Builder:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
             else:
-                # The displacement of the old state X_0 is zero, which is represented by None.
+                # The displacement of the old state X_0 is zero. A zero displacement is stored as None.
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -185,18 +185,18 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
-        # The state is a single matrix. Thus the program has one output, apart from the embedded solution.
+        # The only remaining output is the new state, which is a single matrix.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
         self.displaced(result, new)
         body = tuple(self.body)
         lower = None if embedded is None else self.points[embedded]
-        # If there is no embedded method, ``lower`` is None, and the step has no error estimate.
+        # Without an embedded solution, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the new state minus the embedded solution. Both contain the summand X_0. Rounding
-        # errors are smaller if only the displacements are subtracted. The basis is multiplied by the result.
+        # The estimate is the new state minus the embedded solution. This difference is the basis times the
+        # difference of the displacements. Without the summand X_0, the rounding errors are smaller.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -221,8 +221,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # A group element is always the exponential of one element B S B^T of the algebra. Therefore the
-            # core S represents the group element.
+            # The core S represents the group element exp(B S B^T).
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -244,7 +243,8 @@ class _Builder:
     def displaced(self, target: Matrix, displacement: Matrix | None) -> None:
         """Append the assignment of X_0 + B D to ``target``.
 
-        X_0 is the old state, B is the basis, and D is the ``displacement``. None means D = 0.
+        X_0 is the old state, B is the basis, and D is the ``displacement``. If D is zero, ``displacement`` is
+        None.
         """
         self.sum(target, (self.one, self.argument))
         if displacement is not None:
@@ -252,16 +252,16 @@ class _Builder:
             self.body.append(Multiplication(target, columns, displacement, added=True))
 
     def evaluated(self, target: Var, point: Var, *time: Var) -> Matrix:
-        """Append the evaluation of the field at ``point``, and return the core S of the result B S B^T."""
+        """Append the evaluation of the field at ``point``, and return the core of the field value."""
         n, k, name = self.matrices.rows, self.k, target.name
         displacement, x = self.points[point], self.argument
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
             self.displaced(x, displacement)
-        # ``w`` consists of the first k unused columns of the basis. The value of the field is written there.
+        # The statements write the value of the field to ``w``, the next k free columns of the basis.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
-        # If the program has no time variable, the field does not depend on time. The value 0 is then used.
+        # If the field does not depend on time, the program has no time variable, and t is set to 0.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
         # The matrix ``w`` now contains the field V at the point X. The next statements replace V by
@@ -284,20 +284,20 @@ class _Builder:
         """Append the computation of the core S of the field at a point X, and return S.
 
         The point is X = X_0 + B D, where X_0 is the old state, B is the basis, and D is the ``displacement``.
-        None means D = 0. The matrix W consists of k columns of B and begins with the column ``first``. The
-        field at X is the element W X^T - X W^T of the algebra.
+        If D is zero, ``displacement`` is None. The matrix W consists of k columns of B. The index of the
+        first of these columns is ``first``. The field at X is the element W X^T - X W^T of the algebra.
 
-        Let J and E be the matrices with X_0 = B J and W = B E. Their columns are unit vectors. With
-        C = J + D, the point is X = B C. The field is B S B^T with the core S = E C^T - C E^T.
+        The matrices J and E select columns of the basis: X_0 = B J and W = B E. With C = J + D, the point is
+        X = B C. The core of the field is S = E C^T - C E^T.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # S is the sum of two matrices: E J^T - J E^T and E D^T - D E^T. The first matrix has two nonzero
-        # blocks: the unit matrix in the block ``below``, and minus the unit matrix in the block ``right``.
+        # Because C = J + D, the core S is the sum of E J^T - J E^T and E D^T - D E^T. The first summand has
+        # two nonzero blocks: ``below`` is the unit matrix, and ``right`` is minus the unit matrix.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # The second matrix E D^T - D E^T contains D^T in its last k rows, and -D in its last k columns.
+            # The summand E D^T - D E^T contains D^T in its last k rows, and -D in its last k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -305,10 +305,10 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` after the time is replaced by ``t``, and the parameters by their values."""
+        """Return ``statement`` with the time ``t`` and the values of the fixed parameters inserted."""
         values = {**self.scene.scalars(self.domain, t)}
-        # The formula of a matrix entry contains the symbols ROW and COLUMN for the indices of the entry. They
-        # are not replaced, because emitted loops over the matrix evaluate the formula.
+        # The symbols ROW and COLUMN are the indices of a matrix entry. These symbols are not replaced. In the
+        # emitted code, they are loop variables.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -323,7 +323,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # If the entries are given as a tuple of numbers, there are no symbols to replace.
+                    # A tuple consists of numbers and contains no symbols.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
@@ -336,22 +336,20 @@ class _Builder:
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
         """Append the computation of a linear combination of cores, and return the result.
 
-        Each pair in ``terms`` contains a coefficient and a core. A core may be smaller than the result, which
-        has the size of the largest core.
+        Each pair in ``terms`` contains a coefficient and a core. The result has the size of the largest core.
         """
-        # A smaller core is extended by zeros. It still represents the same element of the algebra.
+        # A smaller core is extended by zeros. The extended core represents the same element of the algebra.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the computation of a bracket of two elements of the algebra, and return its core S.
+        """Append the computation of the bracket of two elements of the algebra, and return its core.
 
         The elements are B x B^T and B y B^T with the basis B and the cores ``x`` and ``y``. With the Gram
         matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        # The sizes of x, G and y do not depend on the number of rows of the state. Therefore the products are
-        # cheap for a state with many rows, too.
+        # The matrices x, G and y remain small if the state has many rows. Their products are therefore cheap.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -363,12 +361,12 @@ class _Builder:
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
         """Append the computation of dexp^{-1}_x y by its series, and return the core of the result.
 
-        ``x`` and ``y`` are the cores of two elements of the algebra. The terms of the series contain at most
-        ``order`` nested brackets.
+        ``x`` and ``y`` are the cores of two elements of the algebra. The series is truncated after the term
+        with ``order`` nested brackets.
         """
         terms, power = [(self.one, y)], y
         # With the Bernoulli numbers B_k, the series is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + .... The
-        # bracket in the term with B_k is ``power``.
+        # variable ``power`` contains the nested bracket of the term with B_k.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)
@@ -378,10 +376,10 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the computation of the point exp(B S B^T) X, and return its displacement.
+        """Append the computation of the point exp(B S B^T) X, and return the displacement of this new point.
 
-        B is the basis, and S is the ``core``. ``start`` is the displacement of the point X. If this
-        displacement is zero, ``start`` is None.
+        B is the basis, S is the ``core``, and ``start`` is the displacement of X. If the displacement of X is
+        zero, ``start`` is None.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

@@ -1,15 +1,16 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
 The emitted module is run on a lattice whose arrays are larger than the last-level cache. A sweep is a loop
-over all sites. Each sweep of a step then reads and writes main memory. The measurement counts the bytes that
-all sweeps of a step read and write (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
+over all sites. Each sweep reads and writes main memory, because the arrays do not fit into the cache. The
+measurement counts the bytes that all sweeps of a step read and write
+(:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
 
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
-size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
-writes to this line, but such reads are not counted. One third of the numbers that the triad reads or stores
-are stored numbers. If this fraction is smaller for a step, the bandwidth of the step can exceed the bandwidth
-of the triad, because fewer reads are omitted from the count.
+size. Each number that a loop reads or writes is counted once. Before the processor writes to a cache line, it
+reads this line. This additional read is not counted. For each number that the triad writes, it reads two
+numbers. A step can read more than two numbers for each number that it writes. Then a smaller fraction of the
+memory traffic is omitted from the count, and the bandwidth of the step can exceed that of the triad.
 """
 
 from __future__ import annotations
@@ -42,10 +43,7 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""The longest compile time in seconds. If the compilation takes longer, the module is not measured.
-
-For example, the module for the scene of a rod and the method ``cf4`` takes 2 seconds.
-"""
+"""The longest compile time in seconds. If the compilation takes longer, the module is not measured."""
 
 STEP_SECONDS = 0.5
 """The largest CPU time of a step in seconds. If a step would take longer, a smaller lattice is used."""
@@ -72,20 +70,19 @@ They are used if the operating system does not state the true sizes.
 """
 
 FEW_SITES = 4096
-"""The number of sites in the first run, which gives an estimate of the CPU time for each site."""
+"""The number of sites in a short run that estimates the CPU time for each site."""
 
 SHORTER, ATTEMPTS = 64, 4
-"""If the first step fails, the step size is divided by SHORTER and the step is tried again.
+"""If the first step fails, the step size is divided by SHORTER, and the step is repeated.
 
-At most ATTEMPTS attempts are made. The first step can fail because the initial state may be far from
-equilibrium.
+At most ATTEMPTS attempts are made. The first step can fail if the initial state is far from equilibrium.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The iterations for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
+"""The sweeps for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
 
-In dimension d = 1 or 2, this lattice has SIDES[d] sites along each axis. In higher dimensions it has 4 sites
-along each axis.
+A lattice of dimension d = 1 or 2 has SIDES[d] sites along each axis. In higher dimensions, the lattice has 4
+sites along each axis.
 """
 
 TRIAD = """\
@@ -171,7 +168,7 @@ class Unmeasured:
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason for the missing measurement, for the key ``bandwidth`` of a JSON record."""
+        """Return the reason as plain data, for the key ``bandwidth`` of a JSON record."""
         return {"reason": self.reason}
 
 
@@ -180,9 +177,9 @@ def measure(
 ) -> Bandwidth | Unmeasured:
     """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
 
-    All sites start from the initial state of the scene. ``most_bytes`` is the largest size of the arrays, by
-    default a fraction of the free memory (:data:`FREE_SHARE`). ``seconds`` is the longest compile time.
-    ValueError is raised if the module is not for a chain or lattice.
+    All sites start from the initial state of the scene. The size of the arrays is limited to ``most_bytes``.
+    The default limit is a fraction of the free memory (:data:`FREE_SHARE`). The compile time is limited to
+    ``seconds``. ValueError is raised if the module is not for a chain or lattice.
     """
     step = compiled.kernel.sites
     if step is None:
@@ -218,13 +215,13 @@ def measure(
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size for the measurement.
 
-    For an implicit method, the step size is the time span divided by :data:`PARTS`. For an explicit method,
-    this quotient is divided by :data:`SHORTER`.
+    For an implicit method, the step size is the time span of the scene divided by :data:`PARTS`. For an
+    explicit method, the step size is smaller by the factor :data:`SHORTER`.
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If a rotation angle exceeds about one radian, the emitted code repeats a loop without vector
-    # instructions. The division by SHORTER makes the rotation angles smaller and avoids the slow repetition.
+    # If a rotation angle exceeds about one radian, the emitted code repeats the computation in a slow loop.
+    # The division by SHORTER makes the rotation angles smaller.
     return h if step.blocks else h / SHORTER
 
 
@@ -275,9 +272,9 @@ class _Runs:
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
         """Make ``repeated`` equal runs of ``steps`` steps. Return a status and a CPU time in seconds.
 
-        If all runs succeed, the status is ``Status.OK``. The CPU time is that of the fastest run, divided by
-        the number of sites and the number of steps. If a run fails, its status is returned, and no further
-        runs are made. The CPU time has no meaning in this case.
+        If all runs succeed, the CPU time is the time for one site and one step in the fastest run. If a run
+        fails, no further runs are made. The method returns the status of the failed run and a meaningless CPU
+        time.
         """
         import numpy as np
 
@@ -296,7 +293,7 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the CPU time in seconds for one site and one step, measured in the fastest of several runs.
+        """Return the CPU time in seconds for one site and one step in the fastest of several runs.
 
         The number of steps is chosen so that a run takes at least :data:`RESOLVED` seconds.
         """
@@ -324,7 +321,8 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
     """Return the mean number of sweeps over the lattice in a step, for each system of implicit equations.
 
     Emitted modules do not report the number of sweeps. Therefore :data:`COUNTED_STEPS` steps are executed in
-    Python on a small lattice. Each sweep calls the same function once, and these calls are counted.
+    Python on a small lattice. For each system, the calls of one function are counted. Each sweep calls this
+    function once.
     """
     if not step.blocks:
         return ()
@@ -346,8 +344,8 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 def _triad() -> Callable[[int], float]:
     """Compile the triad loop ``a[i] = b[i] + s * c[i]``.
 
-    Return a function that measures the bandwidth of the loop in GB/s. Its argument is the total size of the
-    three arrays in bytes.
+    Return a function that measures the bandwidth of the loop in GB/s. The argument of this function is the
+    total size of the three arrays in bytes.
     """
     import numpy as np
     from cffi import FFI
