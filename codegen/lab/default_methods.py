@@ -1,8 +1,7 @@
 """The default methods and scenes of the commands that measure methods.
 
-A name such as ``cf:cf4`` is the name of a family of methods, followed by the name of a tableau. The command
-``report`` omits a default method if its family does not apply to the scene, or if its order for the scene
-differs from the order listed in this module.
+A name such as ``cf:cf4`` contains the name of a family of methods and the name of a tableau. The command
+``report`` omits the default methods whose family does not apply to the scene.
 """
 
 from __future__ import annotations
@@ -39,17 +38,17 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""The methods that the report runs with equal steps by default. The values are the orders of the methods.
+"""The default methods of the report with equal steps, and their orders.
 
-REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. A method
-is omitted if its order for the scene differs from the listed order.
+REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. If a
+method has another order for the scene of the report, the report omits this method.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""The methods that the report runs with step-size control by default.
+"""The default methods of the report with step-size control.
 
-For a Hamiltonian scene only the first method of this list is used, because REPORT_HAMILTONIANS contains seven
-methods and a figure has only eight colours.
+A figure has only eight colours, and REPORT_HAMILTONIANS contains seven methods. Therefore the report of a
+Hamiltonian scene uses only the first method of this list.
 """
 
 README_METHODS = {
@@ -89,9 +88,10 @@ README_METHODS = {
         "rkmk:rk4",
     ),
 }
-"""The methods in the work-precision diagrams of the README. The keys are the names of the diagrams.
+"""Maps the name of each work-precision diagram of the README to its methods.
 
-The scene of all diagrams is the dipole. The methods of :data:`REPORT_ADAPTIVE` run with step-size control.
+All diagrams show the scene ``dipole``. Methods that are also in :data:`REPORT_ADAPTIVE` run with step-size
+control. The remaining methods run with equal steps.
 """
 
 PICTURED = (
@@ -101,16 +101,16 @@ PICTURED = (
     HAMILTONIAN_METHODS,
     *README_METHODS.values(),
 )
-"""Lists of methods that may appear together in one figure.
+"""Each entry lists the methods of one figure.
 
-The colour and the marker of a method do not change from figure to figure.
+A method has the same colour and the same marker in all figures.
 """
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods. If ``names`` is empty, return the default methods for the scene.
 
-    For an unknown name, the same errors are raised as by :func:`codegen.method.parse`.
+    The function :func:`codegen.method.parse` reads the names and raises the errors for unknown names.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     return tuple(method_for(scene, name) for name in (names or defaults))

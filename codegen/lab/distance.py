@@ -1,11 +1,13 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-A state consists of one or several components, such as a group element and a momentum. The difference from the
-reference is measured for each component, and the error norm is the sum over the components. The spectral norm
-is used for group elements that are matrices, and the Euclidean norm for all remaining components. For
-example, a state may consist of a momentum mu and a rotation matrix g, with the references mu_ref and g_ref.
-The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On symplectic integration
-in Lie groups and manifolds*, Fig. 3.2).
+A state consists of one or several components, such as a group element and a momentum. For each
+component, the norm of the difference from the reference is computed. The error norm is the sum of the norms.
+If a component is a group element given by a matrix, its norm is the spectral norm. Otherwise it is the
+Euclidean norm.
+
+For example, a state may consist of a momentum mu and a rotation matrix g. Let mu_ref and g_ref be the
+references. The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On symplectic
+integration in Lie groups and manifolds*, Fig. 3.2).
 """
 
 from __future__ import annotations
@@ -61,10 +63,10 @@ def euclidean_norm(vector: Sequence[float]) -> float:
 
 
 def spectral_norm(matrix: Sequence[float]) -> float:
-    """Return the largest singular value of a square matrix, or the Euclidean norm of the entries of another
-    matrix.
+    """Return the spectral norm of a square matrix, or the Frobenius norm of a non-square matrix.
 
-    ``matrix`` lists the entries row by row. The matrix is square if the number of entries is a square number.
+    ``matrix`` lists the entries row by row. If the number of entries is a square number, the matrix is
+    assumed to be square.
 
     >>> round(spectral_norm([0.0, -2.0, 1.0, 0.0]), 12)
     2.0

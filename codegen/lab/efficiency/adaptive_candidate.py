@@ -1,7 +1,7 @@
-"""An emitted method with step-size control, measured for one curve of a work-precision diagram.
+"""Measures an emitted method with step-size control. The runs give one curve of a work-precision diagram.
 
-The step size is controlled by the embedded error estimate of the method. A :class:`Row` describes one run.
-Its attribute ``control`` is both the relative and the absolute tolerance. Its attribute ``steps`` is the
+The embedded error estimate of the method controls the step size. A :class:`Row` describes one run. The
+attribute ``control`` of a row is both the relative and the absolute tolerance. The attribute ``steps`` is the
 number of accepted steps. The CPU time includes rejected steps.
 """
 
@@ -20,9 +20,9 @@ from codegen.lab.timing import span_times
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """The tolerances of the runs, from loose to tight.
 
-Some emitted methods have an error estimate of low order. Such a method takes many steps even with a loose
-tolerance. Therefore this list begins with looser tolerances than the list for peers
-(:data:`codegen.lab.peers.TOLERANCES`).
+If the error estimate of a method has a low order, the method takes many steps even with a loose tolerance.
+Therefore this list begins with looser tolerances than :data:`codegen.lab.peers.TOLERANCES`, the list for
+integrators of other libraries.
 """
 
 
@@ -43,10 +43,11 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no further run is needed. ``rows`` describes the previous runs.
+        """Return True if the next run would take too long, or if rounding errors dominate.
 
-        If the error of the last run is larger than the size of the state, the result is False, because a
-        smaller tolerance may give a useful result.
+        ``rows`` contains the results of the previous runs. If the error of the last run exceeds both 1 and
+        the norm of the reference solution, the result is False. A smaller tolerance may then give a useful
+        result.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))

@@ -1,6 +1,6 @@
-"""The function :func:`recommend` finds the fastest method of the library with a required accuracy on a scene.
+"""The function :func:`recommend` finds the fastest method of the library that reaches a required accuracy.
 
-The user may also require properties, for example that the method is symplectic.
+The user may also require properties of the method, for example symplecticity.
 """
 
 from __future__ import annotations
@@ -28,12 +28,13 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A recommended method, which reaches the required error.
+    """A recommended method. Its error is at most the required error.
 
     - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
-    - ``adaptive``: True for step-size control.
-    - ``h``: the step size, or None with step-size control.
-    - ``tolerance``: the relative and absolute tolerance, or None with equal steps.
+    - ``adaptive``: True for a method with step-size control, and False for a method with equal steps.
+    - ``h``: the step size of a method with equal steps, and otherwise None.
+    - ``tolerance``: the relative and absolute tolerance of a method with step-size control, and otherwise
+      None.
     - ``error``: the measured error.
     - ``seconds``: the measured CPU time of a run over the time span.
     - ``command``: the shell command that emits the integrator.
@@ -57,10 +58,13 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """The result of :func:`recommend`: the fastest and the second fastest method that reach the error.
+    """The result of :func:`recommend`: the fastest methods that reach the required error.
 
-    If no method reaches the error, ``best`` is None. If fewer than two methods reach it, ``runner_up`` is
-    None. ``search`` contains all details of the search. ``bool(advice)`` is True if ``best`` is not None.
+    - ``best``: the fastest method, or None if no method reaches the required error.
+    - ``runner_up``: the second fastest method, or None if at most one method reaches the required error.
+    - ``search``: all details of the search.
+
+    ``bool(advice)`` is True if ``best`` is a method.
     """
 
     scene: str
@@ -74,16 +78,16 @@ class Advice:
     def emit(self, target: str = DEFAULT) -> Artifact:
         """Emit the fastest method in the language ``target``, and return the emitted module.
 
-        ValueError is raised if no method reaches the error.
+        ValueError is raised if no method reaches the required error.
         """
         if self.best is None:
-            raise ValueError("no method reaches the error")
+            raise ValueError("no method reaches the required error")
         best = self.best
         return emit(self.scene, best.method, target, adaptive=best.adaptive, form=best.form)
 
     def __repr__(self) -> str:
         if self.best is None:
-            return f"<no method reaches the error on {self.scene}>"
+            return f"<no method reaches the required error on {self.scene}>"
         return f"<{self.scene}: {self.best.text()}; error {self.best.error:.1e}>"
 
     def _repr_html_(self) -> str:

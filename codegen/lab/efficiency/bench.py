@@ -43,7 +43,8 @@ class Result:
 
     - ``entries``: maps the name of a candidate (a method or another integrator) to its rows. A row describes
       one run.
-    - ``places``: the fastest and the second fastest candidate for several required errors, such as 1e-6.
+    - ``places``: one entry for each required error, such as 1e-6. An entry contains the fastest and the
+      second fastest candidate.
     - ``paths``: the paths of the files that were written.
     """
 
@@ -83,7 +84,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """A bench: one scene, and the candidates (methods and other integrators) to measure on it.
+    """A bench measures candidates on one scene. A candidate is an emitted method or another integrator.
 
     If ``folder`` is not None, :meth:`run` writes the results to this folder.
     """
@@ -96,9 +97,9 @@ class Bench:
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
         """Make all runs that are not in the cache, and rank the candidates.
 
-        If ``folder`` is not None, a CSV file, a JSON file and an SVG file are written to it. ``done`` is
-        called with the row of each run. By default, the cache is a hidden folder in ``folder``. If the bench
-        is interrupted, the next call of this method uses the runs in the cache.
+        The function ``done`` is called with the row of each run. If the attribute ``folder`` is not None, the
+        results are written to this folder as a CSV file, a JSON file and an SVG file. The default cache is a
+        hidden folder in ``folder``. After an interruption, the next call uses the runs in the cache.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -191,7 +192,8 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return one candidate for each pair of a peer and an element of ``equations``.
 
-    A peer that projects its states onto the manifold of the scene has only one candidate.
+    Some peers project their states onto the manifold of the scene. Such a peer has only one candidate, for
+    the equations that the scene states.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -203,8 +205,8 @@ def peer_forms(
 def entry_name(candidate: Candidate) -> str:
     """Return the name of a candidate in the results.
 
-    The name is the label of the candidate. If a method is not emitted in the default language, the language
-    is added in parentheses.
+    The name is the label of the candidate. If the code is emitted in another language than the default
+    language, the label is followed by the name of this language in parentheses.
     """
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
@@ -260,10 +262,10 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def curves(result: Result, styles: Styles) -> list[Curve]:
-    """Return a curve of error against CPU time for every candidate with at least one successful run.
+    """Return one curve for each candidate with a successful run. A curve shows errors and CPU times.
 
-    If a candidate was run on several forms of the equations, the curve shows the fastest form at each
-    error (:func:`frontier`).
+    If a candidate has runs on several forms of the equations, the curve shows the fastest form for each error
+    (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

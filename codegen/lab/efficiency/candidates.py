@@ -1,6 +1,7 @@
-"""Lists the recipes of a scene: all ways in which methods of the library can integrate the scene.
+"""Lists the recipes of a scene.
 
-A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
+A recipe is a way to integrate the scene. It consists of a method, one form of the equations, and the choice
+of equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""Recipes that do not state a number of commutators are added only up to this order.
+"""The largest order of recipes whose names contain no number of commutators, such as ``rkmk:rk4``.
 
-In the method ``rkmk(2)``, the series of dexp^{-1} is truncated after 2 commutators. If the number is missing,
-the compiler searches for the fewest commutators that give the order of the method. At higher orders, this
-search takes seconds.
+For the name ``rkmk(2):rk4``, the series of dexp^{-1} is truncated after 2 commutators. For the name
+``rkmk:rk4``, the compiler searches for the fewest commutators that give the order of the method. For orders
+above SEARCHED, this search takes seconds.
 """
 
 
@@ -37,11 +38,11 @@ class Recipe:
     """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order of the method, as stated in the file of the tableau. In the recipes of
-      :func:`named`, it is computed from the order conditions.
+    - ``order``: the order of the method. The function :func:`named` computes the order from the order
+      conditions. All other functions take the order from the file of the tableau.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
-    - ``adaptive``: True for step-size control.
+    - ``adaptive``: True for step-size control, and False for equal steps.
     - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
     - ``explicit``: True if each stage of the tableau depends only on earlier stages.
 
@@ -83,8 +84,9 @@ class Recipe:
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene.
 
-    If a method treats the state as a vector in R^n, each form of the equations has a recipe. The methods use
-    the named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
+    ``tableaux`` contains the names of the tableaux to use. If it is empty, all tableaux of the library are
+    used. If a method treats the state as a vector in R^n, the method has a recipe for each form of the
+    equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -96,8 +98,7 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
     """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
 
     On an abelian group, several families give the same methods. Of these families, only the first in the list
-    :func:`families_for` is used. Recipes that cannot be compiled for the scene are not omitted here. They are
-    rejected later, when they are compiled.
+    :func:`families_for` is used. The function does not check whether a recipe can be compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -119,10 +120,10 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
-    """Return True if the methods of a family can be defined by a tableau.
+    """Return True if the given tableau defines a method of a family.
 
-    The tableau must have a format that the family can read. If the formulas of the family divide by the
-    weights, it must be certain that all weights are nonzero.
+    The family must be able to read the format of the tableau. If the formulas of the family divide by the
+    weights, all weights must be provably nonzero.
     """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
@@ -135,11 +136,11 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. The cut-off is
-    the number of commutators after which a series is truncated. If several cut-offs give the same order, only
-    the smallest is used. A recipe without a cut-off is added if the tableau is explicit, its coefficients are
-    exact, and the order is at most :data:`SEARCHED`. Recipes are omitted if their order is less than half the
-    classical order of the tableau.
+    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. The series is
+    truncated after this number of commutators. Each order of the method has one recipe, with the smallest
+    cut-off that gives this order. Orders below half the classical order of the tableau have no recipe.
+
+    Explicit tableaux with exact coefficients may also have a recipe without a cut-off (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -147,7 +148,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # On R^n all commutators are zero, so a method can have a higher order than on a general group.
+        # The order depends on the group. On R^n, for example, all commutators are zero, and the order can be
+        # higher than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
@@ -179,7 +181,7 @@ def size(tableau: Tableau) -> int:
 def is_explicit(tableau: Tableau) -> bool:
     """Return True if each stage of a tableau depends only on earlier stages.
 
-    A tableau that cannot be read as a Runge-Kutta tableau is treated as explicit.
+    If a tableau cannot be read as a Runge-Kutta tableau, the result is also True.
     """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
@@ -188,10 +190,10 @@ def is_explicit(tableau: Tableau) -> bool:
 
 
 def degrees(family: str) -> Iterator[Recipe]:
-    """Yield the recipes of a family that needs no tableau, such as ``taylor``.
+    """Yield the recipes of a family without tableaux, such as Taylor's method (``taylor``).
 
-    Each degree in :data:`DEGREES` gives a recipe with equal steps. If the family has an error estimate, the
-    degree also gives a recipe with step-size control.
+    Each degree in :data:`DEGREES` has a recipe with equal steps. If the family has an error estimate, each
+    degree also has a recipe with step-size control.
     """
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
@@ -213,11 +215,11 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of the methods that ``methods`` names.
+    """Yield the recipes of the given methods.
 
-    Each pair in ``methods`` contains the name of a method and a flag for step-size control. The attribute
-    ``order`` of a recipe is computed from the order conditions for the scene. If a method treats the state as
-    a vector in R^n, each form of the equations has a recipe.
+    Each pair in ``methods`` contains the name of a method, and True for step-size control or False for equal
+    steps. The attribute ``order`` of a recipe is computed from the order conditions for the scene. If a
+    method treats the state as a vector in R^n, the method has a recipe for each form of the equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

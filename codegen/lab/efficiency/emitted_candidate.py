@@ -1,4 +1,4 @@
-"""An emitted method with equal steps, measured for one curve of a work-precision diagram."""
+"""Measures an emitted method with equal steps. The runs give one curve of a work-precision diagram."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ class EmittedCandidate:
     - ``exact``: the reference solution of the scene.
     - ``target``: the name of a programming language, such as ``c``.
     - ``budget``: the longest CPU time of a run in seconds.
-    - ``precompiled``: the result of :func:`compile_method`, if the caller has already computed it. In
-      this case, ``emit_seconds`` does not include the time for this computation.
-    - ``equations``: the equations to integrate, by default those that the scene states.
+    - ``precompiled``: the result of :func:`compile_method`, or None. If the caller gives the result, the
+      attribute ``emit_seconds`` does not include the time of :func:`compile_method`.
+    - ``equations``: the form of the equations to integrate. The default is the form that the scene states.
     """
 
     scene: Problem
@@ -68,9 +68,9 @@ class EmittedCandidate:
         return doubled_steps()
 
     def prepare(self) -> None:
-        """Compile the module and measure the time of the compiler. Then load the module.
+        """Compile the module, measure the time of the compiler, and load the module.
 
-        The cache of compiled modules is not used, because the compilation must be measured.
+        The module is compiled even if it is in the cache of compiled modules.
         """
         measure = known_target(self.target).compile_seconds
         if measure is not None:
@@ -113,9 +113,9 @@ class EmittedCandidate:
         return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no further run is needed. ``rows`` describes the previous runs.
+        """Return True if the next run would take too long, or if rounding errors dominate.
 
-        The result is True if the next run would take too long, or if rounding errors dominate.
+        ``rows`` contains the results of the previous runs.
         """
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
@@ -153,9 +153,9 @@ class EmittedCandidate:
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
         """Return the sum of ``cost`` over all operations that a run executes.
 
-        The operations in a system of implicit equations are executed in every iteration. ``iterations``
-        contains the number of iterations of each system in the whole run. All remaining operations are
-        executed once in every step, or once in every substep if a step consists of substeps.
+        ``iterations`` contains the number of iterations of each system of implicit equations in the whole
+        run. Each iteration executes the operations of its system once. Each substep executes all remaining
+        operations once. A step without substeps counts as one substep.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

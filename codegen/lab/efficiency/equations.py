@@ -1,7 +1,7 @@
-"""The equations of a scene in one of several classical forms, for example with a unit quaternion.
+"""The equations of a scene in one of several classical forms.
 
-Some methods integrate the coordinates of the state as a vector in R^n, without the group. Such a method can
-run on each form of the equations, and the results on different forms can be compared.
+For example, a rotation can be given by a rotation matrix or by a unit quaternion. Methods that treat the
+state as a vector in R^n can run on each form of the equations. The results can be compared.
 """
 
 from __future__ import annotations

@@ -1,14 +1,16 @@
-"""The exhaustive search runs every recipe of the library, to check the result of the usual search.
+"""The exhaustive search considers every recipe of the library, to check the result of the usual search.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
-each recipe and measures its error. The number of steps for a required error is predicted from this error. The
-time of a step is predicted from its operations. The product of the two numbers is the predicted CPU time. It
-is divided by the safety factor SAFE. The quotient is a lower bound of the true CPU time.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-For each required error, the lower bound is compared with WORST times the best known CPU time. A recipe is
-excluded if its lower bound is too large for every required error. Unreliable predictions are used with more
-caution (:func:`least_ratio`). The remaining recipes are emitted, compiled and timed. A sample of the excluded
-recipes is also timed, to test the lower bounds.
+1. The interpreter makes runs with each recipe. Their errors give the predicted number of steps for each
+   required error. The operations of a step give its predicted CPU time.
+2. The predicted CPU time of a run is the number of steps times the time of a step. This time divided by the
+   safety factor SAFE is a lower bound of the true CPU time.
+3. The best CPU time of the usual search, multiplied by WORST, is the limit for each required error. A recipe
+   is excluded if its lower bound exceeds the limits of all required errors. If a prediction is unreliable,
+   the lower bound is the time of a single step (:func:`least_ratio`).
+4. The remaining recipes are emitted, compiled and timed.
+5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
 
 from __future__ import annotations
@@ -30,38 +32,35 @@ from codegen.lab.progress import Progress
 from orderconds.processes import in_processes
 
 WORST = 1.25
-"""The largest accepted ratio of the CPU time of a recommended recipe to the best time."""
+"""A recommended recipe is accepted if its CPU time is at most WORST times the time of the fastest recipe."""
 
 SAFE = 8.0
-"""The safety factor of predicted times. It is assumed that a predicted time is at most SAFE times the true
-time.
+"""The safety factor of predicted CPU times.
+
+The search assumes that a predicted time is at most SAFE times the true time.
 """
 
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also timed.
-
-Half of them are the recipes with the smallest :func:`least_ratio`. The other half is distributed evenly over
-the remaining excluded recipes.
-"""
+"""The number of excluded recipes that are timed to test the lower bounds (:func:`sampled`)."""
 
 
 @dataclass
 class Exhausted:
     """The result of an exhaustive search.
 
-    - ``known``: maps each required error to the least CPU time in seconds that was measured before this
-      search. The time is infinite if nothing was measured.
+    - ``known``: maps each required error to the least CPU time in seconds that the usual search measured, or
+      to infinity if the usual search found no recipe.
     - ``recipes``: the number of recipes of the library.
     - ``results``: maps each required error to the measured runs.
     - ``raced``: the number of recipes that were emitted and timed.
     - ``refused``: the number of recipes that cannot be compiled for the scene.
-    - ``copies``: the number of recipes that have the same code as another recipe.
-    - ``excluded``: the number of recipes that were not timed, because the lower bounds of their CPU times
-      were too large.
-    - ``nearest``: the smallest ratio t/b in a sample of the excluded recipes, where t is the measured CPU
-      time of a recipe and b is the best CPU time.
+    - ``copies``: the number of recipes that were not timed, because a timed recipe has the same code.
+    - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
+      long.
+    - ``nearest``: a ratio of CPU times, which tests whether fast recipes were excluded. A sample of the
+      excluded recipes is timed. The fastest of them takes ``nearest`` times the best CPU time.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -77,20 +76,20 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least CPU time in seconds to reach an error, measured in this search or before it."""
+        """Return the least CPU time in seconds that this search or the usual search measured for an error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
     def text(self) -> str:
-        """Return a summary of the search in words, with the numbers of measured and of excluded recipes."""
+        """Return a summary of the search in words."""
         counts = (
-            f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
-            f"the bound, {self.refused} cannot be compiled, {self.copies} have the same code as others"
+            f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is too "
+            f"long, {self.refused} cannot be compiled, {self.copies} have the same code as others"
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; in a sample of the excluded recipes, the fastest takes "
-                f"{self.nearest:.1f} times the best time"
+                "; the fastest recipe in a sample of the excluded recipes takes "
+                f"{self.nearest:.1f} times the best CPU time"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -103,8 +102,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for the fastest recipe for each error in ``known``.
 
-    ``known`` maps each error to the least CPU time in seconds that was measured before this search, or to
-    infinity if nothing was measured. The search ends after ``most`` seconds.
+    ``known`` maps each error to the least CPU time in seconds that the usual search measured. The value is
+    infinity if the usual search found no recipe. ``most`` is the time limit in seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -136,9 +135,9 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the prediction for each recipe, computed from runs of the interpreter.
+    """Return the prediction for each pair of a method and a form of the equations.
 
-    All runs have equal steps. A recipe with step-size control uses the prediction for equal steps.
+    Each prediction is for equal steps. The search also uses it for the method with step-size control.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
@@ -156,18 +155,18 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return a ratio of the predicted time to a time limit. A recipe is excluded if this ratio is above 1.
+    """Return the smallest ratio of the predicted CPU time of a recipe to the time limit of an error.
 
-    ``limits`` maps each error to its time limit in seconds. The ratio is computed for each error, and the
-    smallest ratio is returned. ``adaptive`` is True if the recipe has step-size control.
+    A recipe is excluded if this ratio is above 1. ``limits`` maps each error to its time limit in seconds.
+    ``adaptive`` is True if the recipe has step-size control.
 
     A prediction is unreliable in two cases:
 
     - The interpreted runs failed.
     - The interpreted runs had large errors, and the recipe is implicit or has step-size control.
 
-    If the prediction is unreliable, only the predicted time s of a single step is used. Let L be the longest
-    time limit. The result is s/L if s > L, and otherwise 0.
+    In both cases, the result depends only on the predicted time of a single step. If this time exceeds the
+    longest time limit, the result is the quotient of the two times. Otherwise the result is 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -207,8 +206,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time that a recipe needs for each error, and add the results to ``done``.
 
-    For each error, the measured time is divided by the best time that was known before. The function returns
-    the smallest of these ratios, or infinity if the recipe reaches none of the errors.
+    Return the smallest ratio of a measured time to the best time of the earlier recipes for the same error.
+    If the recipe reaches none of the errors, return infinity.
     """
     done.codes.add(candidate.code)
     done.raced += 1

@@ -15,10 +15,9 @@ from codegen.printers import target as known_target
 class Features:
     """Properties of an emitted method.
 
-    - ``on_manifold``: True if a step acts by group elements. The state then stays on the manifold, apart from
-      rounding errors.
+    - ``on_manifold``: True if the state stays on the manifold, apart from rounding errors.
     - ``symplectic``: True if the method is symplectic and all steps have the same size.
-    - ``explicit``: True if no equations are solved, so that all steps take the same time.
+    - ``explicit``: True if the method solves no equations.
     - ``adaptive``: True if the method runs with step-size control.
     - ``stack``: an upper bound of the stack memory of a call in bytes, or 0 if no bound is known.
     - ``lines``: the number of lines of the file that contains the step.
@@ -36,7 +35,7 @@ class Features:
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
     """Return the properties of an emitted method.
 
-    ``label`` becomes the label in the result. If it is empty, the label of the method is used.
+    ``label`` is a name for the method. If it is empty, the label of the method is used.
     """
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
@@ -55,8 +54,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if the steps of a method are symplectic maps and all have the same size.
 
-    The result is False for a method with step-size control. With variable step sizes, a symplectic method has
-    no advantage: over long times, it preserves the energy no better than other methods.
+    The result is False for a method with step-size control. With variable step sizes, symplectic methods do
+    not preserve the energy better than other methods over long times.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

@@ -1,8 +1,9 @@
 """The goals of a search for the fastest methods.
 
-A goal is a bound of the error at the end of the time span, together with requirements on the method. The
-search compares recipes. A recipe is a method with equal steps or step-size control, on one form of the
-equations.
+A goal consists of the largest accepted error at the end of the time span and the requirements on the method.
+
+The search compares recipes. A recipe consists of a method, one form of the equations, and the choice of equal
+steps or step-size control.
 """
 
 from __future__ import annotations
@@ -79,8 +80,8 @@ class Goal:
     def met(self, properties: Features) -> bool:
         """Return True if a compiled method with these properties satisfies the requirements of the goal.
 
-        If the goal limits the stack memory (``stack``), an upper bound of the stack memory of the method must
-        be known. This bound must be at most ``stack`` bytes.
+        If the goal limits the stack memory, the method must have a known upper bound of its stack memory.
+        This bound must be at most the limit.
         """
         given = {
             "manifold": properties.on_manifold,
@@ -95,10 +96,10 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return False if a recipe certainly violates one of the requirements ``needs``.
+    """Return False if a recipe violates one of the requirements ``needs``.
 
-    The function does not compile the recipe. Therefore the result True is no proof that the recipe satisfies
-    the requirements.
+    The function does not compile the recipe. Some violations are found only in the compiled method
+    (:meth:`Goal.met`).
     """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
@@ -117,7 +118,7 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the tuples in ``choices`` for which no requirement is certainly violated by a recipe.
+    """Return the tuples of requirements in ``choices`` that a recipe may satisfy (:func:`possible`).
 
     Each tuple contains names of requirements from :data:`NEEDS`.
     """

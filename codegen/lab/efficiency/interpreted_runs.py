@@ -1,11 +1,11 @@
-"""Makes runs over the time span of a scene with the interpreter, which executes the program of a step.
+"""Makes runs over the time span of a scene with the interpreter, without compiled code.
 
 Runs with equal steps solve implicit equations by fixed-point iteration. Newton's method would be slow in the
 interpreter, because it needs difference quotients.
 
-Runs with step-size control are made for stiff scenes. These runs use Newton's method, because fixed-point
-iteration does not converge in long steps. The step size is chosen as in emitted code
-(:mod:`codegen.run.step_control`), but only from the error estimate of the previous step.
+Runs with step-size control are meant for stiff scenes. These runs use Newton's method, because fixed-point
+iteration does not converge in long steps. The step-size control is simpler than in emitted code
+(:mod:`codegen.run.step_control`): each step size depends only on the error estimate of the previous step.
 """
 
 from __future__ import annotations
@@ -24,8 +24,7 @@ from codegen.run.step_control import FIRST, LEAST, MOST, SAFETY
 from codegen.scene.problem import TIME, Problem
 
 MOST_SWEEPS, MOST_NEWTON = 40, 15
-"""The largest number of fixed-point iterations, and the largest number of Newton iterations, for implicit
-equations.
+"""The largest numbers of fixed-point iterations and of Newton iterations for a system of implicit equations.
 """
 
 SETTLED = 1e-9
@@ -41,10 +40,10 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return True or False, and the change of the unknowns in this sweep.
+        """Count one sweep. Return a truth value, and the change of the unknowns in this sweep.
 
-        True means that the iteration may end. ``old`` and ``new`` are the unknowns before and after this
-        sweep. ``previous`` is the change of the unknowns in the previous sweep.
+        The truth value is True if the iteration may end. ``old`` and ``new`` are the unknowns before and
+        after this sweep. ``previous`` is the change of the unknowns in the previous sweep.
         """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
@@ -52,20 +51,20 @@ class CountingDomain(FloatDomain):
 
 
 class NewtonDomain(CountingDomain):
-    """Arithmetic with which the interpreter solves implicit equations by Newton's method.
+    """Double precision arithmetic for runs that solve implicit equations by Newton's method.
 
-    The value 0 of ``patience`` means that no fixed-point iterations are tried before Newton's method.
+    ``patience`` is the number of fixed-point iterations before Newton's method begins.
     """
 
     patience = 0
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state, and a number of sweeps.
+    """Make ``steps`` equal steps over the time span. Return the final state and a mean number of sweeps.
 
-    A sweep is an iteration for implicit equations. The number is the mean number of sweeps that emitted code
-    is expected to need in a step for one system of equations. Raises ArithmeticError if a state is not
-    finite, or if the process has used more than ``end`` seconds of CPU time.
+    A sweep is one iteration for a system of implicit equations. The mean number predicts how many sweeps
+    emitted code needs for one system in one step. ArithmeticError is raised if a state is not finite, or if
+    the process has used more than ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -81,8 +80,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of correct digits. Emitted code computes twice the number of
-    # digits that the interpreter computes, so it needs about twice the number of sweeps.
+    # Each sweep adds about the same number of correct digits. Emitted code iterates until twice as many
+    # digits are correct. Therefore emitted code needs about twice as many sweeps as the interpreter.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
@@ -91,15 +90,15 @@ def controlled_run(
 ) -> tuple[Vector, int, float]:
     """Make a run with step-size control over the time span.
 
-    Returns three values:
+    Three values are returned:
 
     - the final state,
-    - the number of all steps, including the rejected steps,
-    - the mean number of sweeps (iterations) in a step for one system of implicit equations.
+    - the number of accepted and rejected steps,
+    - the mean number of sweeps (iterations) for one system of implicit equations in one step.
 
-    The program must have an embedded solution. The error estimate is proportional to h^``order``, where h is
-    the step size. ``tolerance`` is both the relative and the absolute tolerance. Raises ArithmeticError if
-    steps become too short, or if the process has used more than ``end`` seconds of CPU time.
+    The program must have an embedded solution. The error estimate is proportional to the step size to the
+    power ``order``. ``tolerance`` is both the relative and the absolute tolerance. ArithmeticError is raised
+    if steps become too short, or if the process has used more than ``end`` seconds of CPU time.
     """
     now, last = map(float, problem.span)
     domain = NewtonDomain((last - now) / FIRST)
@@ -117,7 +116,7 @@ def controlled_run(
             new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
             norm = weighted(state, new, ends[EMBEDDED], tolerance)
         except (ArithmeticError, ValueError):
-            # The step fails. An infinite norm rejects it, and a shorter step is tried.
+            # The step fails. The infinite norm causes a new attempt with a shorter step.
             norm = math.inf
         if norm <= 1.0:
             state, now = new, last if length >= last - now else now + length
@@ -125,8 +124,7 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # After a rejected step, a shorter step is tried. If this shorter step is accepted, the next step is
-        # not longer.
+        # The step size may not increase directly after a rejected step.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 
@@ -137,9 +135,10 @@ def weighted(
     """Return the weighted norm of the error estimate of a step.
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
-    The error estimate is ``after`` - ``lower``. Each component is divided by ``tolerance`` (1 + m), where m
-    is the larger absolute value of this component in ``before`` and ``after``. The norm is the root mean
-    square of the quotients. It is infinite if ``after`` or ``lower`` is not finite.
+    The error estimate is ``after`` - ``lower``. Let m be the larger absolute value of a component in
+    ``before`` and ``after``. This component of the error estimate is divided by (1 + m) times ``tolerance``.
+    The norm is the root mean square of the quotients. If ``after`` or ``lower`` is not finite, the norm is
+    infinite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0
