@@ -1,8 +1,8 @@
 """Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. Its CPU time is
-predicted from short runs in the interpreter. A bar contains two limits for a recipe: one for its error, and
-one for its CPU time. Recipes that certainly exceed one of these limits are not run.
+predicted from short runs in the interpreter. The error and the CPU time of a recipe have limits. A recipe
+that is predicted to exceed these limits is not run.
 """
 
 from __future__ import annotations
@@ -18,31 +18,32 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes."""
+"""A recipe is too slow if its predicted CPU time exceeds MARGIN times the least predicted time."""
 
 FRESH = 8
-"""A constant that decides when the bar of a recipe is computed again.
+"""The bar of a recipe is updated when the number of predictions has grown by about the fraction 1/FRESH.
 
-A bar contains the limits on the error and the CPU time of the recipe. It is computed again when the number of
-predictions has grown by about the factor 1 + 1/FRESH.
+A bar contains limits on the error and the CPU time of a recipe. The limits depend on the predictions.
 """
 
 
 EVEN = 4.0
 """A constant in the formula for the delay of a queue of recipes.
 
-There are several queues. The next recipe comes from the queue with the smallest delay. The delay is
-(n + d)/EVEN + s, with the following numbers:
+There are several queues. The next recipe comes from the queue with the smallest delay. A delay depends on
+three numbers:
 
-- n is the number of recipes already taken from the queue.
-- d is the absolute difference of two orders of convergence: the order of the methods in the queue, and the
-  usual order of fast methods (:func:`usual_order`).
-- s is the slowness log2(a/b) of the queue. Here a is the least predicted time of recipes of the same kind as
-  in the queue, and b is the least predicted time of all recipes.
+- n is the number of recipes that were taken from the queue.
+- d is the distance of the order of the methods in the queue from the usual order (:func:`usual_order`).
+- s is the slowness of the queue. All recipes in a queue have one kind (:data:`Kind`). The slowness compares
+  two predicted CPU times: T1 of the fastest recipe of this kind, and T2 of the fastest recipe of all kinds.
+  Then s = log2(T1/T2).
+
+The delay is (n + d)/EVEN + s.
 """
 
 FAILED = 4.0
-"""The slowness of a queue (:data:`EVEN`) if recipes of the same kind have only infinite predicted times."""
+"""The slowness of a queue (:data:`EVEN`) if every prediction for its kind of recipe is an infinite time."""
 
 
 def usual_order(error: float) -> float:
@@ -57,14 +58,14 @@ def usual_order(error: float) -> float:
 Kind = tuple[str, str, bool, bool]
 """A kind of recipe: (family, form of the equations, explicit, controlled).
 
-``explicit`` is True if the tableau is explicit. ``controlled`` is True if the recipe can also run with
-step-size control. Recipes of one kind have similar costs.
+``explicit`` is True if the tableau is explicit. ``controlled`` is True if step-size control is possible.
+Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
 """The key of a queue of recipes: (kind of recipe, order of convergence).
 
-All recipes in a queue have this kind and this order. They are sorted by the number of stages.
+All recipes in a queue have this kind and this order. The recipes are sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -73,16 +74,16 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe to predict, with a bar for each goal.
 
-    A bar contains limits on the error and the CPU time of the recipe. A job is created only when a worker
-    process is free, so that its bars use all predictions up to this time.
+    A bar contains limits on the error and the CPU time of the recipe. These limits depend on earlier
+    predictions. Therefore a job is created late: when a worker process is free.
 
     The recipes are in several queues. The next recipe comes from the queue with the smallest delay
     (:data:`EVEN`). The delay of a queue grows whenever a recipe is taken from this queue. Therefore the
     queues take turns.
 
-    ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
-    to the goals that it may satisfy with step-size control. ``early`` contains names of methods. The recipes
-    of these methods are predicted before all other recipes.
+    - ``goals``: for each recipe, the possible goals of runs with equal steps.
+    - ``controlled``: for a recipe, the possible goals of runs with step-size control.
+    - ``early``: names of methods. The recipes of these methods are predicted before all other recipes.
     """
 
     def __init__(
@@ -113,7 +114,7 @@ class Jobs(Sequence[Job]):
         return recipe.family, recipe.form, recipe.explicit, bool(self.controlled.get(recipe))
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job. The calls must have the arguments k = 0, 1, 2, ..., in this order.
+        """Return the next job. Successive calls must have the arguments k = 0, 1, 2, and so on.
 
         Raises IndexError after the last job. This error ends a ``for`` loop over the jobs.
         """
@@ -146,11 +147,9 @@ class Jobs(Sequence[Job]):
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the slowness of a queue, which is a term in the delay of the queue (:data:`EVEN`).
+        """Return the slowness of a queue (:data:`EVEN`).
 
-        Let a be the least predicted time of recipes of the same kind as in the queue, and b the least
-        predicted time of all recipes. The quotient a/b is computed for each goal. The slowness is log2 of the
-        smallest quotient, or 0 without predictions.
+        If there are several goals, the result is the smallest slowness. Without predictions, it is 0.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -166,8 +165,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Store the prediction for a recipe. The limits of later jobs use the stored predictions.
 
-        Predictions with a ``failure`` are not stored. A prediction is also not stored if it is ``vague`` and
-        contains no prediction for step-size control. Its time may be too short.
+        A prediction with a ``failure`` is not stored. The time in a ``vague`` prediction may be too short.
+        Such a prediction is stored only together with a prediction for step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -184,9 +183,8 @@ class Jobs(Sequence[Job]):
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
         """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
-        To save time, the bar is computed again only after several new predictions (:data:`FRESH`). If the
-        recipe may satisfy the goal with step-size control, rough predictions for equal steps are not used,
-        because they come from runs with large errors.
+        To save time, the bar is updated only after several new predictions (:data:`FRESH`). If the recipe can
+        use step-size control, rough predictions for equal steps are not used.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -202,14 +200,14 @@ class Jobs(Sequence[Job]):
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
     """Return the bar for a goal: the limits on the error and the CPU time of methods of the given order.
 
-    ``known`` contains the predictions for the goal up to now. ``least_seconds`` is the least predicted time
+    ``known`` contains the available predictions for the goal. ``least_seconds`` is the least predicted time
     of all recipes for this goal.
     """
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # The first run of a recipe has the smallest number of steps that occurs in the successful predictions.
-    # This saves useless runs with fewer steps on a scene with fast motion, where all methods need many steps.
+    # On a scene with fast motion, all methods need many steps, and runs with few steps are useless. Therefore
+    # the first run of a recipe has the smallest number of steps in the successful predictions.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -35,10 +35,10 @@ def bench(
 ) -> Result:
     """Measure the error and the CPU time of methods and of other integrators on a scene.
 
-    ``methods`` run with equal steps, and the methods in ``adaptive`` run with step-size control. ``against``
-    contains the names of the other integrators. The command ``orderconds bench`` has the same arguments. A
-    notebook shows the result as a diagram. Wrong arguments raise InputError. If a method cannot be emitted
-    for the scene, the result contains the reason.
+    The methods in ``methods`` run with equal steps. The methods in ``adaptive`` run with step-size control.
+    ``against`` contains the names of the other integrators. The command ``orderconds bench`` has the same
+    arguments. A notebook shows the result as a diagram. If a method cannot be emitted for the scene, the
+    result contains the reason. Raises InputError for invalid arguments.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

@@ -64,7 +64,7 @@ def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
 
 
 def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
-    """Return the function with the given name, from the math library or from :class:`FloatDomain`."""
+    """Return the function with the given name, from :class:`FloatDomain` or from the module ``math``."""
     known: Callable[..., float] | None = getattr(math, name, None)
     domain = FloatDomain(0.0)
     if vector_function(name) is not None:
@@ -118,7 +118,7 @@ class NumericLinear(Operation):
     name = "lin"
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the linear combination of ``args`` with the coefficients c h^k."""
+        """Return the linear combination of ``args`` with the coefficients of this operation."""
         h = domain.h
         factors = [c * h**power for c, power in self.coefficients]
         if len(factors) == 1:

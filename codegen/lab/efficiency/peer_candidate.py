@@ -27,8 +27,8 @@ class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    The peer integrates ``equations``. By default, these are the equations in the coordinates of the scene. If
-    the peer does not support the scene, :meth:`measure` returns a row that contains the reason.
+    The peer integrates ``equations``. The default value is the form in the coordinates of the scene. If the
+    peer cannot integrate the scene, :meth:`measure` returns a row that contains the reason.
     """
 
     scene: Problem
@@ -102,12 +102,12 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no further run is needed. ``rows`` are the results of the runs up to now.
+        """Return True if no further run is needed. ``rows`` are the results of all earlier runs.
 
         The result is True in three cases:
 
-        - The peer does not support the scene.
-        - The next run, which is more accurate, would take too long.
+        - The peer cannot integrate the scene.
+        - The next run would take too long.
         - The peer makes equal steps, and rounding errors dominate.
         """
         if self.refused or beyond_budget(rows, self.budget):

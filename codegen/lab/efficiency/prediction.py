@@ -3,13 +3,13 @@ operations.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
 the recipe over the time span with a small number of equal steps. The number is doubled until the error is
-small. The number of steps for another error is computed from this error and the order of the method. If no
-run has a small error, and the recipe can use step-size control, the interpreter also makes runs
-with step-size control. The time of a step is predicted as the sum of the times of its operations.
+small. The number of steps for a required error is predicted from the most accurate run and the order of the
+method. If no run has a small error, the interpreter also tries step-size control for methods that support it.
+The time of a step is predicted as the sum of the times of its operations.
 
 The prediction is not exact. For example, it ignores that the compiler computes common subexpressions only
-once. It decides which recipes are measured first. Recipes that are predicted to be much too slow are not
-compiled.
+once. The recipes with the shortest predicted times are measured first. Recipes that are predicted to be much
+too slow are not compiled.
 """
 
 from __future__ import annotations
@@ -53,13 +53,13 @@ For a series of runs with step-size control, the limit is PATIENCE/2.
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
 
-If the interpreted runs over the whole time span fail or have large errors, the interpreter also makes runs
-over the first interval. The error at the end of the time span is then predicted as PARTS times the error at
-the end of the first interval.
+The interpreter makes runs over the whole time span. If these runs fail or have large errors, the interpreter
+makes runs over the first interval. The error is assumed to grow linearly in time. Therefore the predicted
+error at the end of the time span is PARTS times the error at the end of the first interval.
 """
 
 TRIES = 3
-"""The number of consecutive failures after which the interpreter makes fewer runs with a kind of method.
+"""After TRIES consecutive failures of methods of one kind, the interpreter makes fewer runs for this kind.
 
 With equal steps, a method fails if all its runs over the whole time span fail. After TRIES failures, methods
 of the same kind are run only over the first interval of the time span (:data:`PARTS`).
@@ -70,9 +70,10 @@ methods of the same kind are not run with step-size control.
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""Numbers of sweeps (iterations) for a system of implicit equations in a step.
+"""Two numbers of sweeps. A sweep is one iteration for the implicit equations of a step.
 
-A prediction uses at least FEWEST_SWEEPS. Before the first run of a method, USUAL_SWEEPS is assumed.
+A prediction uses at least FEWEST_SWEEPS sweeps in a step. Before the first run of a method, the prediction
+uses USUAL_SWEEPS sweeps.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
@@ -81,9 +82,9 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 FAR = 10.0
 """A method is excluded if methods of slightly higher order are predicted to be too inaccurate.
 
-Let p be the order of the method, and let e be the least error that methods of the orders p + 1 and p + 2 are
-predicted to reach in the time limit. The method is excluded if e exceeds FAR times the required error. The
-assumption is that a method of order p is even less accurate in the same time.
+Let p be the order of the method. Methods of the orders p + 1 and p + 2 have predicted errors in the time
+limit. Let e be the least of these errors. In the same time, the method of order p is assumed to be even less
+accurate. The method is excluded if e exceeds FAR times the required error.
 """
 
 CALL = 8.0
@@ -112,8 +113,8 @@ class Prediction:
     - ``rough``: True if no interpreted run with equal steps over the whole time span had a small error
       (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. The predicted
-      time for a small error may then be too short.
+    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. A time
+      predicted from this large error may be too short.
     - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
     """
 
@@ -167,10 +168,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). The number e is a predicted error: the least error that
-      methods of slightly higher order (:data:`FAR`) reach in ``seconds``. Each triple is for the methods of
-      one family, or of all families if ``family`` is ''. These methods are explicit if the second entry is
-      True, and implicit if it is False.
+    - ``least``: triples (family, explicit, e). The number e is the least predicted error of methods of
+      slightly higher order (:data:`FAR`) in the time ``seconds``. These methods belong to the family, or to
+      any family if ``family`` is ''. If ``explicit`` is True, the methods are explicit, and otherwise
+      implicit.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -182,13 +183,13 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Return True if this bar excludes a method.
+        """Return True if this bar excludes a method of the given family.
 
         A method is excluded in three cases:
 
         - The predicted CPU time ``step_seconds`` of one step is longer than the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - Methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
+        - Even methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -199,8 +200,8 @@ class Bar:
         """Return the largest number of steps that the interpreter may make in a run.
 
         ``step_seconds`` is the time of a step in compiled code. The result is the number of steps that
-        compiled code makes in the time limit of this bar, but at most :data:`MANY_STEPS`. If the result would
-        be smaller than the attribute ``steps``, the result is ``steps``.
+        compiled code makes in the time limit of this bar. It is at most :data:`MANY_STEPS`, but at least the
+        attribute ``steps``.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -234,10 +235,10 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        Each bar contains limits on the error and on the CPU time. Bars that exclude the method
-        (:meth:`Bar.too_high`) are ignored. If all bars exclude the method, it is not run, and the predicted
-        error is infinite. ``controlled`` is the same method with step-size control, or None. Raises
-        InputError if the method cannot be used for the scene.
+        Each bar contains limits on the error and on the CPU time. If every bar excludes the method
+        (:meth:`Bar.too_high`), the method is not run, and the predicted error is infinite. Otherwise the
+        remaining bars limit the runs. ``controlled`` is the same method with step-size control, or None.
+        Raises InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -255,8 +256,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # The first interval is tried if all runs failed, or if the error is large with MANY_STEPS steps. If
-        # ``most`` is below MANY_STEPS and the error is large, the method is too slow for the time limit.
+        # If all runs failed, the first interval is tried. If the error is large, ``most`` is compared with
+        # MANY_STEPS. If ``most`` is smaller, the method is too slow. Otherwise the first interval is tried.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -273,12 +274,15 @@ class Predictor:
         return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
 
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
-        """Return the prediction for a method with step-size control, or None if no run has a small error.
+        """Return the prediction for a method with step-size control, or None.
 
-        :data:`SMALL` defines a small error. The result is also None if the method has no embedded solution,
-        or if too many methods of the same kind failed (:data:`TRIES`). ``equal`` is the prediction for equal
-        steps. The interpreter makes runs with decreasing tolerances. No further run is made after a run whose
-        error is at most ``target``, or after half of the time limit (:data:`PATIENCE`) has passed.
+        The interpreter makes runs with decreasing tolerances. The series ends when a run fails, when an error
+        is at most ``target``, or when half of the time limit (:data:`PATIENCE`) has passed. ``equal`` is the
+        prediction for equal steps. The result is None in three cases:
+
+        - No run has a small error (:data:`SMALL`).
+        - The method has no embedded solution.
+        - Too many methods of the same kind failed (:data:`TRIES`).
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
@@ -299,8 +303,8 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer than this run. After half of the time
-            # limit, it would probably not end in time.
+            # The next run has a smaller tolerance and takes longer than this run. If half of the time limit
+            # has passed, the next run would probably exceed the limit.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -308,11 +312,7 @@ class Predictor:
         return known if reached else None
 
     def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
-        """Return three results: a problem, a program, and a dictionary.
-
-        The method integrates the problem. The program makes one step. The dictionary maps each input of the
-        program to its number of components.
-        """
+        """Return the problem, the program of one step, and the number of components of each program input."""
         scene = self.equations.problem
         problem = problem_for(scene, method)
         program = lower_composed(scene, method) or lower(scene, method)
@@ -339,12 +339,12 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the predicted time, in nanoseconds, of the operation of one assignment.
+        """Return the predicted time of one assignment in nanoseconds.
 
-        The function inserts each assigned variable and the number of its components into ``widths``.
+        The numbers of components of the assigned variables are added to ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
-        # Different methods may use different groups for the same scene, so the key contains the group.
+        # The key contains the group, because methods may use different groups for the same scene.
         key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
         if key not in self.costs:
             known = symbolic(assign, problem, shape)
@@ -363,14 +363,14 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Run a program in the interpreter with more and more equal steps. Return data of the most accurate run.
+    """Run a program in the interpreter with increasing numbers of equal steps.
 
-    The first run has ``steps`` steps. The number of steps is doubled until the error is small
-    (:data:`SMALL`), or until the number would exceed ``most``. No run begins after the process has used
-    ``end`` seconds of CPU time.
+    The first run has ``steps`` steps. The number of steps is doubled for each further run, up to ``most``.
+    The series ends when the error is small (:data:`SMALL`), or when the process has used ``end`` seconds of
+    CPU time.
 
-    The returned data are the number of steps, the error, and the number of sweeps in a step. A sweep is an
-    iteration for implicit equations. The error is infinite if all runs failed.
+    Returns three numbers for the most accurate run: the number of steps, the error, and the number of sweeps
+    in a step. A sweep is an iteration for implicit equations. If all runs failed, the error is infinite.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -392,8 +392,7 @@ def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the predicted time in nanoseconds to compute and to invert the matrix of Newton's method.
 
     ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate the equations once.
-    ``widths`` contains the number of components of each unknown. The largest of these numbers is the number
-    of evaluations for the matrix.
+    ``widths`` contains the number of components of each unknown.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3
@@ -425,8 +424,8 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         divisions += node.op == "div"
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # One call computes all results of a vector function. Its operations are counted only with the
-            # first result (index 0).
+            # One call computes all results of a vector function. The operations of the call are counted for
+            # the first result (index 0) only.
             function, index = vector
             arithmetic += sum(function.operations.values()) if index == 0 else 0
         else:

@@ -1,11 +1,11 @@
-"""The race of recipes: measures the CPU time that each recipe needs to reach a required error.
+"""Measures the CPU time that each recipe needs to reach a required error.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. It is measured with
 emitted C code. The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
 
-The control is increased until a run reaches the required error and the next run confirms this result. The
-confirmation is needed, because the error of a single run may be small by accident. Bisection then finds the
-smallest control that reaches the error.
+The control is increased until two consecutive runs have small errors, because the error of a single run may
+be small by accident. Afterwards, bisection finds the smallest control that reaches the required error. The
+comparison of all recipes is called the race.
 """
 
 from __future__ import annotations
@@ -38,19 +38,19 @@ FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""No further runs of a recipe are tried after a run that takes more than LONGEST seconds of CPU time.
+"""After a run of more than LONGEST seconds of CPU time, no finer run of the recipe is made.
 
-The limit is lower if another recipe reaches the required error in a short time (:data:`PATIENT`).
+If another recipe reaches the required error in a short time, the limit is lower (:data:`PATIENT`).
 """
 
 BRIEF = 0.01
-"""A run that takes less than BRIEF seconds of CPU time never counts as too slow.
+"""A run that takes less than BRIEF seconds of CPU time is never too slow.
 
-The first run of a module is slower than later runs, so that short times are not reliable.
+Short times are not reliable, because the first run of a module is slower than later runs.
 """
 
 PATIENT = 8.0
-"""No further runs of a recipe are tried after a run that takes much more CPU time than the fastest recipe.
+"""After a run that is much slower than the fastest other recipe, no finer run of the recipe is made.
 
 The limit is PATIENT times the least CPU time of the other recipes, plus BRIEF.
 """
@@ -70,7 +70,7 @@ class Entry:
 
     @property
     def code(self) -> str:
-        """The code of the step, without the header comment and without names that depend on the method.
+        """The code of the step, without the header comment, the module name, and the prefix of the functions.
 
         Two recipes with equal code compute the same steps. Only one of the two recipes is measured.
         """
@@ -86,18 +86,17 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # In every other form of the equations, the unknowns are coordinates. The method then ignores the
-        # manifold of the scene, so that the states may leave the manifold.
+        # In every other form of the equations, the unknowns are coordinates. The method ignores the manifold
+        # of the scene. Therefore the states may leave the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)
 class Result:
-    """The result of one entry of the race.
+    """The fastest run of an entry that reaches the required error.
 
-    It describes the fastest run that reaches the required error. If no run reaches this error, it describes
-    the most accurate run.
+    If no run reaches the required error, the attributes describe the most accurate run.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
     - ``steps``: the number of steps. Rejected steps are not counted.
@@ -147,7 +146,7 @@ class Racer:
         self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
-        """Run over ``spans`` times the time span. Return the final state and the number of steps.
+        """Run the integrator over ``spans`` time spans. Return the final state and the number of steps.
 
         ``control`` is the number of equal steps in one time span, or the exponent k of the tolerance 10^-k.
         """
@@ -189,9 +188,9 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time of the other recipes in seconds. After a run that takes much longer
-        (:data:`PATIENT`), no further runs are tried. If the error is not reached, the attribute ``reached``
-        of the result is False.
+        ``best`` is the least CPU time of the other recipes in seconds. After a run that takes much
+        longer than ``best`` (:data:`PATIENT`), no finer run is made. If the error is not reached, the
+        attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -220,9 +219,9 @@ class Racer:
         """Increase the control until a run reaches the error and the next run confirms this result.
 
         The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The next run
-        confirms the result if its error is at most 2 ``error``. Returns the control that reaches the error,
-        and True. If no such control is found, returns the last control, and False. After a run that takes
-        more than ``longest`` seconds of CPU time, no further runs are made.
+        confirms the result if it has at most twice the error ``error``. Returns the control of the confirmed
+        run, and True. Without a confirmed run, returns the last control, and False. The control
+        is not increased after a run of more than ``longest`` seconds of CPU time.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -240,11 +239,11 @@ class Racer:
     def _at_rounding(self, values: list[float]) -> bool:
         """Return True if rounding errors probably prevent further convergence.
 
-        ``values`` are the errors of all runs. The result is True under three conditions:
+        ``values`` are the errors of all runs. The result is True if all three conditions hold:
 
         - There are at least five runs.
         - The smallest error, relative to the size of the state, is below 1e-9.
-        - The last three errors are above e/2, where e is the smallest error of the earlier runs.
+        - Each of the last three errors is more than half of the smallest error before them.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -253,11 +252,11 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Reduce the control by bisection. Return the smallest tested control whose run reaches the error.
+        """Reduce the control of a run by bisection. Return the smallest tested value that reaches the error.
 
-        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with the
-        argument ``control`` must reach the error. The bisection begins with an interval that ends at
-        ``control``. The interval begins at half the number of steps, or at the exponent k - 1.
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with this
+        value must reach the error. The bisection searches between half of the number of steps and the number
+        of steps, or between the exponents k - 1 and k.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

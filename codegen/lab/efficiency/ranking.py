@@ -2,7 +2,7 @@
 
 A candidate is a method or another integrator. For each error 10^-k, the candidates are ranked separately. The
 time to reach an error is interpolated between measured runs. If a candidate was run on several forms of the
-equations, the fastest form counts.
+equations, the ranking uses the fastest form.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The runs are sorted from coarse to fine. Runs after the most accurate run are not used. Let a be the last
-    run whose error is above ``error``, and b the next run. The time is interpolated between a and b, linearly
-    in the logarithms of time and error. If a run after a took less time than the interpolated time, the
-    result is the least time of these runs.
+    The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
+    interpolated between two runs: the last run whose error is above ``error``, and the next run. The
+    interpolation is linear in the logarithms of time and error. If the next run or a later run took less
+    time, the result is the least time of these runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -72,7 +72,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU time as in :func:`seconds_to`, for rows of one form of the equations."""
+    """Return the result of :func:`seconds_to`. All rows must belong to one form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -88,9 +88,9 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate with the name of the form of the equations in brackets.
+    """Return the label of a candidate, followed by the form of the equations in brackets.
 
-    If the name of the form is empty, return only the label.
+    If ``form`` is empty, return only the label.
 
     >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
     ('heyoka (as printed)', 'cf:cf4')
@@ -99,10 +99,10 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of a candidate, without the slower forms of the equations.
+    """Return the successful runs of a candidate, without the runs on slower forms of the equations.
 
-    A run is omitted if the candidate reaches the same error on another form in less time. If there are
-    several forms, the result is sorted by error, from large to small.
+    A run is omitted if another form reaches the same error in less time. If there are several forms, the
+    result is sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]
@@ -117,10 +117,10 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows of the form of the equations that is fastest most often.
+    """Select one form of the equations, and return its rows.
 
-    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The rows of the form that
-    is fastest for the largest number of errors are returned.
+    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The selected form is
+    fastest for the largest number of errors.
     """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)

@@ -41,7 +41,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # Creating the goal raises InputError for an invalid error or requirement.
+        assert self.goal  # Goal raises InputError if ``error`` or ``needs`` is invalid.
 
     @property
     def goal(self) -> Goal:
@@ -54,7 +54,7 @@ class Request:
         return Task(self.scene, self.span, self.budget, self.tableaux)
 
     def problem(self) -> Problem:
-        """Return the scene. If ``span`` is not None, it replaces the time span of the scene."""
+        """Return the problem of the scene. If ``span`` is not None, ``span`` is the time span."""
         return self.task.problem()
 
 
@@ -63,14 +63,14 @@ class Recommendation:
     """The result of a search for the fastest recipe.
 
     - ``places``: for each recipe that reaches the error, its fastest run. The fastest recipe comes first.
-    - ``best``: None if a recipe reaches the error. Otherwise it is the most accurate run.
+    - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search.
     - ``complete``: False if the time limit ended the search.
     - ``lost``: the labels of recipes that do not preserve a conserved quantity in a long run.
-    - ``referred``: the fraction of the time limit that was used to compute the reference solution.
-    - ``kinks``: the number of points of the solution at which the field is not smooth.
+    - ``referred``: the fraction of the time limit that the reference solution took.
+    - ``kinks``: the number of points of the solution at which the vector field is not smooth.
     """
 
     request: Request
