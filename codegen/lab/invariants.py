@@ -1,8 +1,8 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
 The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors in the value of
-the invariant are proportional to the magnitude. Deviations of an invariant are divided by its absolute value.
-If the terms nearly cancel, the absolute value is small, and deviations are divided by the magnitude.
+the invariant are proportional to the magnitude. Deviations of an invariant are usually divided by its
+absolute value. If the terms nearly cancel, the deviations are divided by the magnitude instead.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from codegen.scene.problem import TIME, Problem
 FUNCTIONS = of_scalars(math)
 
 MANIFOLD = "manifold"
-"""The key of the equations of the manifold in the results of :func:`functions` and :func:`expressions`."""
+"""The key for the equations of the manifold in the dictionaries of this module."""
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
@@ -87,8 +87,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value. The magnitude of the divisor may be larger, and
-            # the quotient would then be too small.
+            # The absolute value of the divisor is used. The magnitude of the divisor may be larger, so that
+            # the quotient would be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)
@@ -106,7 +106,7 @@ def _absolute(e: Expr) -> Expr:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return expressions in the state that are all zero if and only if the state is on the manifold."""
+    """Return expressions of the state. The state is on the manifold if and only if all of them are zero."""
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

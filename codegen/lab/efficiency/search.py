@@ -1,7 +1,7 @@
 """The search for the fastest recipes of the library for several goals.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound of
-the error together with requirements, for example that the method is symplectic. The search has three stages.
+A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound on
+the error and a list of requirements. For example, the method must be symplectic. The search has three stages.
 
 In the first stage, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
 (:mod:`codegen.lab.efficiency.prediction`). The interpreter stops early if the recipe is certainly too slow.
@@ -10,8 +10,8 @@ In the second stage, recipes are emitted as C and measured. A recipe is measured
 is far below the best measured time. The measured times are used to correct the predicted times of other
 recipes. If the corrected time of a recipe is far above the best measured time, the recipe is not measured.
 
-In the third stage, the fastest recipes are timed again with more repetitions. All goals share the
-predictions, the compiled modules and the runs.
+In the third stage, the fastest recipes are timed again with more repetitions. All goals use the same
+predictions, compiled modules and runs.
 """
 
 from __future__ import annotations
@@ -50,16 +50,14 @@ For the other kinds, the safety factor is :data:`SAFETY`.
 LEADERS, CLOSE = 4, 1.4
 """Limits that decide which recipes are timed again.
 
-A recipe is timed again if it is one of the LEADERS fastest recipes, and if its CPU time is at most CLOSE
-times the best CPU time.
+The LEADERS fastest recipes are timed again, unless their CPU time exceeds CLOSE times the best CPU time.
 """
 
 CONTROLLED = 100.0
-"""A number that corrects predicted times of recipes with step-size control.
+"""The divisor of predicted times of recipes with step-size control.
 
-A time that was predicted from inaccurate runs with equal steps may be much too long. On stiff scenes, the CPU
-time with equal steps can be some hundred times the CPU time with step-size control. Therefore the predicted
-time is divided by CONTROLLED, until a recipe of the same kind has been measured.
+The divisor is used if the prediction comes from inaccurate runs with equal steps, and no recipe of the same
+kind has been measured. On stiff scenes, such a prediction can be about a hundred times too long.
 """
 
 ROUND = 6
@@ -74,20 +72,20 @@ REFERRING = 0.6
 PREDICTING = 0.5
 """The fraction of the remaining time budget that may be used for predictions.
 
-The remaining budget is the part that is left when the reference solution has been computed.
+The remaining budget is the time that is left after the computation of the reference solution.
 """
 
 UNREACHED = 1e-3
-"""The gain of a recipe whose estimated time is not below the best measured time.
+"""The gain of a recipe that may be the fastest, although its estimated time is not below the best time.
 
-This gain is small, because recipes with large gains are measured first.
+Recipes with large gains are measured first. The gain UNREACHED is small, so such a recipe is measured late.
 """
 
 LONG_STEPS = 20_000
 """The number of steps of the long run, which tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""The largest number of times that a step size is halved.
+"""The largest number of halvings of a step size.
 
 The step size is halved if a conserved quantity is not preserved in a long run.
 """
@@ -95,8 +93,8 @@ The step size is halved if a conserved quantity is not preserved in a long run.
 Kind = tuple[str, bool, bool]
 """A kind of recipe: (family, explicit, adaptive).
 
-``explicit`` is True for an explicit method, and ``adaptive`` is True for step-size control. The ratios of
-measured to predicted times are similar for all recipes of one kind.
+``family`` is the name of the method family. ``explicit`` is True for an explicit method, and ``adaptive`` is
+True for step-size control. All recipes of a kind have similar ratios of measured to predicted times.
 """
 
 Key = tuple[str, str]
@@ -158,7 +156,7 @@ class Search:
         self.race()
 
     def predict(self) -> None:
-        """Predict the times of recipes. Stop when the time budget for predictions is used.
+        """Predict the times of recipes. Stop when the time budget for predictions is used up.
 
         The constant :data:`PREDICTING` defines this time budget. The class :class:`Jobs` decides in which
         order the recipes are predicted.
@@ -180,7 +178,7 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return an optimistic estimate of the CPU time in seconds that a recipe needs to reach an error.
+        """Return an optimistic estimate of the CPU time of a recipe for a required error, in seconds.
 
         The predicted time is corrected by the ratio of measured to predicted times for this kind of recipe.
         To make the estimate optimistic, the corrected time is divided by a safety factor. If there is no
@@ -197,10 +195,10 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` if it may be much too long.
+        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` if it is unreliable.
 
-        The estimate is divided if three conditions hold: the recipe has step-size control, the prediction is
-        based on equal steps with large errors, and no recipe of the same kind has been measured.
+        An estimate is unreliable if three conditions hold: the recipe has step-size control, the prediction
+        comes from equal steps with large errors, and no recipe of the same kind has been measured.
         """
         prediction, seconds = self.prediction(recipe), self.expected(recipe, error)
         unknown = recipe.adaptive and prediction is not None and prediction.rough
@@ -209,8 +207,8 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        For a recipe with step-size control, the prediction from runs with step-size control is returned. If
-        there is none, the prediction from runs with equal steps is returned.
+        For a recipe with step-size control, the prediction comes from runs with step-size control. If these
+        runs were not made, the prediction comes from runs with equal steps.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -260,11 +258,11 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return the recipes to emit next. There are at most :data:`ROUND` of them.
 
-        The recipes with the largest gains are returned. For one goal, the gain is log(a/b). Here a is the
-        best measured time, and b is the estimated time of the recipe (:meth:`expected`). If no measured
-        recipe reaches the goal, a is the safety factor times the least estimated time. The gains for all
-        goals are added. Until a recipe of a kind has been measured, at most one recipe of this kind is
-        returned.
+        The recipes with the largest gains are returned. Let a be the best measured time for a goal, and b the
+        estimated time of the recipe (:meth:`expected`). If b is below a, the gain for this goal is log(a/b).
+        If no measured recipe reaches the goal, a is the safety factor times the least estimated time. The
+        gains for all goals are added. If no recipe of a kind has been measured, at most one recipe of this
+        kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -303,11 +301,11 @@ class Search:
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the fastest run of each recipe that reaches a goal.
+        """Return the results of the recipes that reach a goal, one result for each recipe.
 
-        A recipe reaches a goal if it satisfies the requirements and if a run reaches the required error. Runs
-        that were measured for smaller errors are included. A recipe is omitted if a conserved quantity was
-        not preserved in a long run.
+        A recipe reaches a goal if it satisfies the requirements of the goal and one of its runs reaches the
+        required error. The result describes the fastest of these runs. If a recipe does not preserve a
+        conserved quantity in a long run, the recipe is omitted.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -340,8 +338,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is not known. A long time is assumed: at
-                # least the predicted time, and at least the time ``worst`` times twice the safety factor.
+                # If the recipe does not reach the error, its time is not known. Therefore a long time is
+                # assumed. It is neither below the predicted time nor below 2 * safety * worst.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -349,7 +347,7 @@ class Search:
     def time_again(self, goal: Goal) -> None:
         """Time the fastest recipes for a goal again, with more repetitions.
 
-        Each run is timed again at most once.
+        A run that was already timed again is omitted.
         """
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
@@ -377,10 +375,10 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        The fastest recipes are timed again, and the results are sorted. If the goal concerns long times, a
-        long run then tests whether the two fastest recipes preserve the conserved quantities. If a recipe
-        fails the test, its step size is halved, at most :data:`SHORTER` times. A recipe that still fails is
-        excluded.
+        The fastest recipes are timed again, and the results are sorted. If the goal concerns long times, the
+        two fastest recipes must preserve the conserved quantities in a long run. If a recipe fails this test,
+        its step size is halved, and the test is repeated. After :data:`SHORTER` halvings, a recipe that fails
+        is excluded.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -388,7 +386,7 @@ class Search:
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
             result = ranked[kept]
-            # With half the step size, the long run has twice as many steps, so that it covers the same time.
+            # If the step size is halved, the number of steps is doubled. The time span is then the same.
             if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
                 kept += 1
                 continue
@@ -399,8 +397,8 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` results passed the test. The result with shorter steps takes more time,
-                # so it is sorted into the results that are not tested yet.
+                # The result with shorter steps takes more time. It is sorted into the results that are not
+                # tested yet: all results after the first ``kept``.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

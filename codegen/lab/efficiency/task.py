@@ -1,4 +1,4 @@
-"""The task of a search for the fastest methods, and the functions that its worker processes execute.
+"""The task of a search for the fastest methods, and the functions for the worker processes of the search.
 
 The search compares recipes. A recipe is a method with equal steps or step-size control, on one form of the
 equations.
@@ -35,10 +35,10 @@ class Task:
     - ``scene``: the name of the scene.
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
-    - ``tableaux``: names of tableaux. If the tuple is not empty, only methods with these tableaux are
-      searched.
+    - ``tableaux``: names of tableaux. Only methods with these tableaux are searched. If ``tableaux`` is
+      empty, all tableaux are allowed.
     - ``methods``: pairs (label, adaptive) of the methods to search. ``adaptive`` is True for step-size
-      control. If the tuple is empty, the methods of the library are searched.
+      control. If ``methods`` is empty, the methods of the library are searched.
     """
 
     scene: str
@@ -106,9 +106,10 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
     """Return the predicted errors and times of a recipe. A worker process executes this function.
 
     ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
-    recipe. The interpreter makes runs with equal steps. If these runs have large errors and the recipe can
-    run with step-size control, the interpreter makes more runs with step-size control. If ``job`` contains no
-    bars, no prediction is needed, and the result is None.
+    recipe. If there are no bars, the result is None.
+
+    The interpreter makes runs with equal steps. If the errors of these runs are large, a recipe with
+    step-size control is also run with step-size control.
     """
     recipe, bars = job
     if not bars:

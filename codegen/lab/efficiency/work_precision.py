@@ -23,7 +23,7 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""The largest number of times that a run is measured again because its time is implausible.
+"""The largest number of repeated measurements of a run with an implausible time.
 
 The times of two runs are implausible if the run with fewer steps takes longer than the run with more steps.
 """
@@ -41,9 +41,9 @@ class Row:
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
-    - ``seconds``: the CPU time. It is measured in several batches of runs, and the fastest batch counts.
-    - ``spread``: the relative spread of the CPU time. In three quarters of the batches, the time is at most
-      (1 + ``spread``) times ``seconds``.
+    - ``seconds``: the CPU time of a run. It is the mean over the fastest of several batches of runs.
+    - ``spread``: the relative spread of the CPU time. In three quarters of the batches, the mean time of a
+      run is at most (1 + ``spread``) times ``seconds``.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
     - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
@@ -75,10 +75,10 @@ class Row:
 
 
 class Candidate(Protocol):
-    """The interface of a method or peer (another integrator) to measure.
+    """The interface of a measured integrator: a method, or a peer (another integrator).
 
     ``label`` and ``target`` identify the candidate in tables. ``key`` identifies the code of the candidate in
-    the cache: if the code changes, ``key`` changes. ``form`` is the name of the form of the equations, or ''
+    the cache. Different codes have different keys. ``form`` is the name of the form of the equations, or ''
     if the scene has only one form.
     """
 
@@ -102,7 +102,7 @@ class Candidate(Protocol):
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no run with more steps or a smaller tolerance is needed.
 
-        ``rows`` contains the results of the runs that are already made.
+        ``rows`` contains the results of all runs up to now.
         """
 
 
@@ -116,7 +116,7 @@ def measure_rows(
     """Make the runs of a candidate, and return one row for each run.
 
     ``done`` is called with the row of each run. Rows that are stored in ``cache`` are not measured again.
-    If the candidate cannot run on the scene, a last row is added, which contains the reason.
+    If the candidate cannot run on the scene, the last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -152,8 +152,8 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
     """Repeat measurements with implausible times, and return all rows.
 
     Two consecutive runs have implausible times if the run with fewer steps took longer. Both runs are then
-    measured again, at most :data:`AGAIN` times. For each run, the least time counts. ``fresh`` contains the
-    controls (tolerances or numbers of steps) of the runs that may be measured again.
+    measured again, at most :data:`AGAIN` times. The row of a run contains its least time. ``fresh`` contains
+    the controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -187,7 +187,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield only the number 0.0, so that there is one row. No run is made."""
+        """Yield the number 0.0 once. The only row of this method then contains ``reason``."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -195,11 +195,11 @@ class Refused:
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Always raise InputError, because there is no emitted code to measure."""
+        """Always raise InputError, because the method cannot be emitted."""
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True, because the method cannot be emitted and no run is possible."""
+        """Return True: no run is possible."""
         return True
 
 
@@ -223,8 +223,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    The last three runs in ``rows`` are compared. Let e1, e2 and e3 be their errors. Two conditions must hold:
-    e1 is at most :data:`NEAR_ROUNDING` times the size of the state, and both e2 and e3 are above e1/3.
+    Let e1, e2 and e3 be the errors of the last three runs in ``rows``. The error e1 must be at most
+    :data:`NEAR_ROUNDING` times the size of the state. The errors e2 and e3 must be above e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

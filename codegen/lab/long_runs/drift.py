@@ -1,23 +1,23 @@
 """Decides whether a conserved quantity drifts in a long run.
 
 A record contains the deviations of the quantity along one trajectory. The usual confidence interval of a
-fitted line assumes independent deviations. Consecutive deviations are correlated, so this interval would be
-far too narrow. Therefore the record is cut into long blocks. The means over the blocks are nearly
+fitted line assumes independent deviations. Consecutive deviations are correlated, so the usual interval would
+be far too narrow. Therefore the record is cut into long blocks. The means over the blocks are nearly
 independent. A line is fitted to these means, and the confidence interval of its slope follows from Student's
 distribution (method of batch means).
 
 A slope different from zero can have three causes:
 
-- A slow modulation of the deviation. To exclude a modulation, the record is divided into five consecutive
+- The deviation may vary slowly. To exclude a slow variation, the record is divided into five consecutive
   sections. The slope counts as a drift only if the means over the sections are monotone. The means of a
   sinusoid are monotone only if its period is longer than 1.2 times the record.
-- A random walk. Two tests compare the record with random walks (:data:`STRAIGHT`, :data:`STEADY`). The slope
-  counts as a drift only if one of the tests rejects a random walk. The test with STRAIGHT is due to
-  J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
-- A systematic growth of the deviation. Only this growth is called a drift.
+- The deviation may be a random walk. Two tests compare the record with random walks (:data:`STRAIGHT`,
+  :data:`STEADY`). The slope counts as a drift only if one of the tests rejects a random walk. The test with
+  STRAIGHT is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+- The deviation may grow systematically. Only systematic growth is called a drift.
 
-A deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted to
-the part of the record before this time.
+A deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted
+only to the part of the record in which the deviation grows.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ The slope of a record counts as a drift only if the means over the sections are 
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST.
 
-The deviation is then as large as the quantity.
+The deviation is then at least as large as the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
@@ -56,26 +56,27 @@ LATE, LATE_CONFINED = 1.5, 2.0
 """Limits for the growth factor of a deviation that counts as bounded.
 
 The growth factor is the largest deviation of the record, divided by the largest deviation of its first half.
-The usual limit is LATE. If the scatter (:data:`CONFINED`) excludes a random walk, the limit is LATE_CONFINED.
+The usual limit is LATE. The limit is LATE_CONFINED if the scatter is below :data:`CONFINED`.
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""Limits for a deviation that saturates, that is, grows and then stays large.
+"""Limits for a deviation that saturates: it grows and then remains large.
 
-Let d be the largest deviation of the record. The deviation saturates if two conditions hold: it reaches
-LEVEL times d in the first half of the record, and from then on it is at least STAYS times d.
+Let d be the largest deviation of the record. A saturating deviation reaches LEVEL times d in the first half
+of the record. After this time, the deviation is at least STAYS times d.
 """
 
 WALKING = (0.5, 1.6)
-"""The least and the largest variance ratio of a record that may be a random walk.
+"""Limits for the variance ratio. Between these limits, a record may be a random walk.
 
 The record is divided into blocks, and a line is fitted to the means over the blocks. Let r_i be the residual
 of block i in this fit, and V_k the mean of (r_(i+k) - r_i)^2 over all i. The variance ratio is V_k/(k V_1),
-where k is a number of blocks. It is about 1 for a random walk, and about 1/k for independent deviations.
+where k is the distance in blocks. The variance ratio is about 1 for a random walk, and about 1/k for
+independent deviations.
 """
 
 CONFINED = 0.04
-"""A limit for the scatter of a record. Below this limit, the deviation does not count as a random walk.
+"""A limit for the scatter of a record. If the scatter is below the limit, a random walk is excluded.
 
 The record of the deviation is divided into n blocks. Let V be the variance of the means over the blocks, and
 D the variance of the differences between consecutive means. The scatter is V/(n D). Only 3 % of all random
@@ -83,7 +84,7 @@ walks have a scatter below CONFINED.
 """
 
 STRAIGHT = 0.0225
-"""A limit for the scatter of a record about a line. Below it, the slope is not attributed to a random walk.
+"""A limit for the scatter about a line. If the scatter is below the limit, a random walk is excluded.
 
 The record is divided into n blocks, and a line is fitted to the means over the blocks. Let V be the variance
 of the residuals of this fit, and D the variance of the differences between consecutive means. The scatter is
@@ -91,27 +92,27 @@ V/(n D). Only 1 % of all random walks have a scatter below STRAIGHT.
 """
 
 STEADY = 3.2
-"""A limit for the steadiness of a record. Above this limit, the slope is not attributed to a random walk.
+"""A limit for the steadiness of a record. If the steadiness is above the limit, a random walk is excluded.
 
-The record is divided into BLOCKS blocks. Consider the differences between the means of consecutive blocks.
-Let m be the average of these differences, and s the standard error of m. The steadiness is |m|/s. It exceeds
-STEADY for only 1 % of all random walks.
+The record is divided into BLOCKS blocks. Let m be the average difference between the means of consecutive
+blocks, and s the standard error of m. The steadiness is |m|/s. It exceeds STEADY for only 1 % of all random
+walks.
 """
 
 TINY = 1e-24
 """A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""The record is divided into FINE blocks, and two variance ratios are computed (:data:`WALKING`).
+"""The number of blocks for the scatter and for two variance ratios, and the distances k for these ratios.
 
-The first variance ratio compares blocks at a distance of NEAR blocks. The second variance ratio compares
-blocks at a distance of FAR blocks.
+The variance ratios (:data:`WALKING`) have k = NEAR and k = FAR. If a record is short, there are fewer than
+FINE blocks, and the second distance is at most half the number of blocks.
 """
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The results of the tests whether a conserved quantity drifts. The verdict is :attr:`law`.
+    """The results of the tests for a drift of a conserved quantity. The verdict is :attr:`law`.
 
     - ``slope``: the slope of the fitted line per unit of time. It is NaN if too few values are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
@@ -123,8 +124,7 @@ class Drift:
     - ``later``: the growth factor (:data:`LATE`) of the deviation.
     - ``ratios``: two variance ratios (:data:`WALKING`). They are about 1 for a random walk.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if the test with :data:`STRAIGHT` or the test with :data:`STEADY` rejects a
-      random walk.
+    - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` excludes a random walk.
     - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
       this time.
     """
@@ -150,7 +150,8 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation. It is one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
+        - ``lost``: the deviation reaches the size of the quantity. A deviation that saturates is also lost if
+          it reaches half of this size.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -172,8 +173,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If a deviation grows with alternating sign, the means over blocks do not grow, and ``is_drift`` is
-        # False. The exponent of growth is then large. Therefore ``steady`` requires a small exponent.
+        # A deviation may grow with alternating sign. Then the means over blocks do not grow, and ``is_drift``
+        # is False, but the exponent of growth is large. Therefore ``steady`` also requires a small exponent.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -213,12 +214,12 @@ def fit(
       run.
     - ``deviations``: the relative deviation at each sample.
     - ``peaks``, ``lows``: the largest and the smallest absolute deviation in the interval that ends at each
-      sample. The default is the absolute value of the deviation at the sample.
+      sample. The default for both is the absolute value of the deviation at the sample.
     - ``rounding``: the largest deviation that rounding errors can cause.
 
-    A line is fitted to the samples. If a value is not finite, only the samples before it are used, and the
-    attribute ``largest`` of the result is infinite. If the deviation saturates (:data:`STAYS`) after at least
-    :data:`FEWEST` samples, only the samples before the saturation are used.
+    A line is fitted to the samples. If a sample is not finite, only the samples before this sample are used,
+    and the attribute ``largest`` of the result is infinite. If the deviation saturates (:data:`STAYS`)
+    after at least :data:`FEWEST` samples, only the samples before the saturation are used.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -235,7 +236,7 @@ def fit(
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
     signs = numpy.sign(y)
-    # If the deviation has changed its sign since the previous sample, it was zero in between.
+    # If the sign has changed since the previous sample, the smallest absolute deviation is zero.
     least[1:][signs[1:] * signs[:-1] < 0] = 0.0
     level = None if count < len(t) else saturation(size, least)
     until = None if level is None else float(t[level])
@@ -291,13 +292,13 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
 
     The record is divided into n blocks, and the polynomial is fitted to the means over the blocks. Let V be
     the variance of the residuals of this fit, and D the variance of the differences between consecutive
-    means. The scatter is V/(n D). For the degree 0, :data:`CONFINED` is the limit of the scatter.
-    For the degree 1, :data:`STRAIGHT` is the limit.
+    means. The scatter is V/(n D). The limit for the scatter is :data:`CONFINED` for the degree 0 and
+    :data:`STRAIGHT` for the degree 1.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If the increments are equal up to rounding errors, the means are on a line, and the scatter is set to 0.
+    # If all increments are equal up to rounding errors, the means are on a line. The scatter is then 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
@@ -309,7 +310,7 @@ def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return two variance ratios of a record. They are defined at :data:`WALKING` and :data:`FINE`."""
+    """Return two variance ratios of a record, as defined at :data:`WALKING` and :data:`FINE`."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 
@@ -339,7 +340,7 @@ def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarr
 
 
 def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the slope of a line through block means, and the half width of its 95 % confidence interval."""
+    """Fit a line to block means. Return the slope, and the half width of its 95 % confidence interval."""
     import scipy.stats
 
     x, z = _means(t, y, BLOCKS)
@@ -348,8 +349,8 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     residual = z - z.mean() - slope * centred
     square = float(residual @ residual)
     error = math.sqrt(square / (BLOCKS - 2) / float(centred @ centred))
-    # If consecutive residuals have the correlation r, the variance of the slope is (1 + r)/(1 - r) times the
-    # variance for independent residuals.
+    # Let r be the correlation of consecutive residuals. The variance of the slope is (1 + r)/(1 - r) times
+    # the variance for independent residuals.
     r = max(float(residual[1:] @ residual[:-1]) / square, 0.0) if square > 0.0 else 0.0
     error *= math.sqrt((1 + r) / (1 - r))
     return slope, float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error

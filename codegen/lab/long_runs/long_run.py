@@ -38,10 +38,10 @@ Several such runs are made, from different initial states.
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""A factor in a limit for the deviations of quantities that the method conserves exactly.
+"""A factor for the largest deviation that is attributed to rounding errors.
 
-After n steps, the limit is UNSTABLE * n * EPSILON times the magnitude of the quantity. EPSILON is the machine
-epsilon of doubles. Deviations up to this limit are attributed to rounding errors.
+The factor is used for a quantity that the method conserves exactly. After n steps, this largest deviation is
+UNSTABLE * n * EPSILON times the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 """
 
 
@@ -66,12 +66,12 @@ class Kept:
 class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
-    - ``kept``: the results for each conserved quantity. The tuple is empty if there are too few steps.
-    - ``reversals``: two pairs (n, distance). The method makes n steps forward and n steps back. The number
-      ``distance`` is the distance between the final and the initial state. In the first pair, n is about a
-      hundredth of ``steps``. In the second pair, n is the number of all steps of the run.
-    - ``symplectic``: the largest symplectic defect of single steps from several states, or None if it was not
-      measured.
+    - ``kept``: the results for each conserved quantity. If there are too few steps, ``kept`` is empty.
+    - ``reversals``: two pairs (n, distance), or () if not measured. The method makes n steps forward and n
+      steps back. The number ``distance`` is the distance between the final and the initial state. In the
+      first pair, n is about a hundredth of ``steps``. In the second pair, n is equal to ``steps``.
+    - ``symplectic``: the largest symplectic defect of a step, or None if it was not measured. Steps from
+      several states are compared.
     - ``failure``: the message of a step that failed, or ''. If a step failed, the results describe the steps
       before the failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
@@ -183,8 +183,8 @@ def _kept(
     """Return the deviations and the drift of each conserved quantity.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If the change
-    of a quantity is very small, its deviations may be rounding errors.
+    ``changes`` maps the name of a quantity to its largest change in one step, computed with 60 digits. If
+    the relative change is at most EPSILON/10, the deviations of the quantity may be rounding errors.
 
     If a deviation stops growing before there are enough samples for a fit (:data:`FEWEST`), the function
     calls ``early(n)``, which records the first n steps with more samples.
@@ -215,11 +215,11 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity, fitted to the samples before its deviation stops growing.
+    """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
     ``whole`` is the result of :func:`fit` for the complete run. If there are enough samples before the
-    deviation stops growing, ``whole`` is returned. Otherwise the function calls ``early(n)``, which makes the
-    first n steps again and records more samples.
+    saturation, the function returns ``whole``. Otherwise the function calls ``early(n)``, which repeats the
+    first n steps with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

@@ -1,4 +1,4 @@
-"""Tests if a method on a scene is symplectic, if it is symmetric, and if a conserved quantity does not drift.
+"""Tests three properties of a method: symplecticity, symmetry, and no drift of a conserved quantity.
 
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
 each of these three properties. A method is symplectic if the symplectic defect of its steps is zero
@@ -34,7 +34,7 @@ class Properties:
     - ``symmetric``: True if the method is symmetric.
     - ``steady``: False if the deviation of the first conserved quantity grows over many steps.
     - ``quantity``: the name of the first conserved quantity, or '' if there is none.
-    - ``reversal``: the relative error with which a step of size -h undoes a step of size h
+    - ``reversal``: the relative distance from the start after a step of size h and a step of size -h
       (:func:`reversal`).
     """
 
@@ -77,16 +77,16 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 def reversal(compiled: Compiled, h: float) -> float | None:
     """Test if a step of size -h undoes a step of size h.
 
-    The result is the distance between the state before the two steps and the state after the two steps,
-    divided by the change of the state in the step of size h. If a step fails, or if the step of size h does
-    not change the state, the result is None.
+    Let d be the distance between the states before and after the two steps. The result is d divided by the
+    change of the state in the step of size h. If a step fails, the result is None. If the step of size h does
+    not change the state, the result is also None.
     """
     problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test does not begin at the initial state, but one step later. The initial state may be special:
-        # a method that is not symmetric may pass the test there.
+        # The test starts one step after the initial state. At a special initial state, a method may pass the
+        # test, although the method is not symmetric.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

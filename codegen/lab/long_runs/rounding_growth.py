@@ -9,10 +9,10 @@ If the rounding errors are independent, the deviation grows like the square root
 For example, a body that rotates by the same angle in every step may have the same rounding error in every
 step. Compensated summation does not remove such an error.
 
-Several runs start from different states of one trajectory. The deviations are measured after several numbers
-of steps, and their root mean square over all runs is computed. The growth of the root mean square is fitted
-by a power of the number of steps. The confidence interval of the exponent comes from the jackknife method,
-which repeats the fit without the first run, without the second run, and so on.
+Several runs start from different states of one trajectory. After several numbers of steps, the root mean
+square of the deviations of all runs is computed. A power of the number of steps is fitted to these root mean
+squares. The confidence interval of the exponent comes from the jackknife method, which repeats the fit
+without the first run, without the second run, and so on.
 """
 
 from __future__ import annotations
@@ -60,15 +60,15 @@ The change is computed with 60 digits.
 
 
 CHAIN = 3
-"""The number of consecutive steps that are made to test whether a step changes a quantity.
+"""The number of consecutive steps in the test of the change of a quantity.
 
-One step is not enough. From a special initial state, a step may leave a quantity unchanged by chance.
+One step is not enough: from a special initial state, the change in one step may be zero by chance.
 """
 
 NEARLY = 1e-14
-"""The bound for the relative change of a quantity in a step from a state that contains rounding errors.
+"""The bound that replaces :data:`EXACT` for a step from a state with rounding errors.
 
-Such a state is not exactly on the manifold. Therefore the bound :data:`EXACT` is too small.
+This state is not exactly on the manifold. Therefore a larger bound is needed.
 """
 
 
@@ -125,9 +125,9 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Measure how rounding errors grow in every exactly conserved quantity.
 
-    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. There is one result
-    for each quantity and each kind of summation. If compensated summation is not possible for the method,
-    there are only results without compensated summation. If a run fails, the result is empty.
+    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. Each quantity has
+    a result without and a result with compensated summation. If the method cannot use compensated summation,
+    only the results without compensated summation exist. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -159,10 +159,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return the initial times and states of the measured runs as pairs (time, state).
+    """Return pairs (time, state), from which the measured runs start.
 
-    All states are on one trajectory. ``run`` is a pair (compensated, integrator). The integrator computes the
-    trajectory, and ``compensated`` is True if the integrator uses compensated summation.
+    All states are on one trajectory. ``run`` is a pair (compensated, integrator). The integrator computes
+    this trajectory. ``compensated`` is True if the integrator uses compensated summation.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -179,9 +179,9 @@ def exactly_conserved(
     """Return functions that evaluate the exactly conserved quantities. The keys are the names of quantities.
 
     From each pair (time, state) in ``starts``, a step is computed with 60 digits. A quantity counts as
-    conserved if its relative change is below a bound in every step. The bound is :data:`EXACT` for the step
-    from the first state. The bound is :data:`NEARLY` for all other steps, because they start from states
-    with rounding errors. If the interpreter cannot make a step, the result is empty.
+    conserved if its relative change in every step is below a bound. For the step from the first state, the
+    bound is :data:`EXACT`. The other states contain rounding errors, so their bound is :data:`NEARLY`. If the
+    interpreter cannot make a step, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -228,9 +228,9 @@ def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str
 def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
-    """Return a dictionary of functions. Its keys are the names of the quantities in ``kept``.
+    """Return a function for each quantity, as a dictionary. The keys are the names of the quantities.
 
-    Each function evaluates the expressions of a quantity in the arithmetic ``domain``.
+    ``kept`` contains the expressions of each quantity. The functions compute in the arithmetic ``domain``.
     """
     functions = of_scalars(domain.context)
     scene = compiled.scene
@@ -246,10 +246,10 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 
 
 class _Sizes:
-    """Computes the sizes of quantities, by which deviations are divided.
+    """Computes the sizes of quantities. Deviations are divided by these sizes.
 
-    The size of a quantity is usually its absolute value. If the terms of the quantity cancel, the size is the
-    sum of the absolute values of the terms.
+    The size of a quantity is usually its absolute value. If the terms of the quantity nearly cancel, the size
+    is the sum of the absolute values of the terms.
     """
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
@@ -258,7 +258,7 @@ class _Sizes:
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
         """Return the size of the quantity ``name``. ``value`` is its value at the given state and time.
 
-        The equations of the manifold are zero on the manifold. Their size is therefore defined as 1.
+        The expressions for the manifold are zero on the manifold. Therefore their size is defined as 1.
         """
         if name == MANIFOLD:
             return 1
@@ -280,7 +280,7 @@ def _deviations(
     """Make a run from the state ``start``. Return the deviation of every quantity after each number of steps.
 
     ``counts`` contains the numbers of steps. ``carried`` is True if the integrator uses compensated
-    summation. The state of such an integrator also contains the accumulated rounding errors.
+    summation. The state of this integrator then also contains the accumulated rounding errors.
     """
     number, size = domain.context.mpf, len(start)
 
