@@ -37,8 +37,8 @@ class Measurement(ABC, Generic[R]):
     - ``title``: the heading of the section;
     - ``about``: a description of one line, which ``orderconds list measurements`` prints;
     - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of another measurement. If the user selects that measurement, this measurement is
-      selected too.
+    - ``part_of``: the name of a larger measurement. If the user selects the larger measurement, this
+      measurement is selected too.
     """
 
     name: ClassVar[str]

@@ -1,11 +1,11 @@
-"""A cache of results of measurements on disk, so that a measurement with equal inputs is made only once.
+"""A cache on disk for the results of measurements, so that equal inputs are measured only once.
 
-Each result is stored in a file of its own. The file name is a digest of the key. The key contains the inputs
-of the measurement, such as the emitted files and the settings. The kind of processor is added to every key.
-The file also contains a digest of the stored result. If the file is damaged, or if the stored result does not
-have the expected type, the measurement is made again. Every file is written under a temporary name and then
-renamed. Therefore an interrupted write leaves no damaged file. The cache does not use a folder that another
-user owns.
+Each result is stored in its own file. The key of a result contains the inputs of the measurement, such as the
+emitted files and the settings. The cache adds the kind of processor to the key, because CPU times depend on
+it. The file name is a digest of the key.
+
+The file contains the result and a digest of the result. If the digest does not agree, or if the result has
+the wrong type, the measurement is made again. The cache does not use a folder of another user.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""The version of the file format. It is added to every key, so that files of old versions are not read."""
+"""The version of the file format. It is part of every key. Therefore files of old versions are not read."""
 
 FOLDER = ".measured"
 """The name of the cache folder of a report.
@@ -50,10 +50,10 @@ class MeasurementCache:
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
         """Return the stored result with the key ``key``.
 
-        If no such result is stored, ``measure`` computes the result, and the result is stored. ``kind`` is
-        the type of the result. The result may consist of dataclasses, tuples, numbers and strings. The values
-        in ``key`` must have the same ``repr`` in every process. If the folder cannot be used, nothing is
-        stored, and no error is raised. Exceptions of ``measure`` are not caught.
+        If no result is stored, call ``measure`` and store its result. ``kind`` is the type of the result. The
+        result may consist of dataclasses, tuples, numbers and strings. The file name is computed from the
+        ``repr`` of the values in ``key``. Therefore each ``repr`` must be the same in every process. If the
+        folder cannot be used, the result is not stored. Exceptions of ``measure`` are not caught.
         """
         result = self.find(key, kind)
         if result is None:
@@ -64,7 +64,7 @@ class MeasurementCache:
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
         """Return the stored result with the key ``key``. ``kind`` is the type of the result.
 
-        The result is None if no result is stored, or if the stored data are damaged or of another type.
+        Return None if no result is stored, if the file is damaged, or if the result has another type.
         """
         import msgspec
 
@@ -76,7 +76,7 @@ class MeasurementCache:
             if hashlib.sha256(body).digest() != digest:
                 return None
             return msgspec.msgpack.decode(body, type=kind)
-        except (OSError, msgspec.DecodeError):  # Includes ValidationError, which reports a wrong type.
+        except (OSError, msgspec.DecodeError):  # A wrong type raises a subclass of DecodeError.
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:

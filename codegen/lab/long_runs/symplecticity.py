@@ -1,8 +1,8 @@
 """The symplectic defect of a step on T*G, the cotangent bundle of a group G.
 
 A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures how
-much the tangent map changes this form. The tangent map is approximated by central differences of steps that
-are computed with 40 digits.
+much the tangent map changes this form. The tangent map is approximated by central differences. The steps for
+these differences are computed with 40 digits.
 
 Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
 a pair (xi, nu). Here xi is an element of the Lie algebra, and nu is an element of the dual of the Lie
@@ -33,9 +33,9 @@ from codegen.lab.straight_line_field import velocity
 
 DIGITS = 40
 OFFSET = 10
-"""The exponent of the increment 10^-OFFSET in the central differences that approximate the tangent map.
+"""The tangent map is approximated by central differences with the increment 10^-OFFSET.
 
-The error of the approximation is about the square of the increment.
+The error of the approximation is proportional to the square of the increment.
 """
 
 SWEEPS = 40
@@ -45,19 +45,18 @@ If the iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""The largest relative deviation of a conserved quantity at states where the symplectic defect is measured.
+"""The largest relative deviation of a conserved quantity in the part of a run that is measured.
 
-The first state with a larger deviation and all later states are excluded.
+States from the first larger deviation on are excluded.
 """
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
-    """Return the largest symplectic defect of single steps from three states of a run.
+    """Return the largest symplectic defect of three steps of size ``h``.
 
-    The three states are the first state, the middle state, and the state with the fastest motion. If the
-    relative deviation of a conserved quantity exceeds :data:`LEFT` at a state of the run, this state and all
-    later states are excluded. If the implicit equations of a step cannot be solved with 40 digits,
-    ArithmeticError is raised.
+    The steps start at three samples of the run: the first sample, the middle sample, and the sample with the
+    fastest motion. Samples from the first relative deviation larger than :data:`LEFT` on are excluded. Raises
+    ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -67,7 +66,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state): the states at which :func:`largest_defect` measures the defect."""
+    """Return the times and the states at which the steps of :func:`largest_defect` start."""
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
@@ -101,7 +100,7 @@ def symplectic_defect(
 
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
     Implicit equations are solved by fixed-point iteration. If the iteration fails, Newton's method starts
-    from ``near``, the solutions of the emitted code. Raises :class:`NotConverged` if no solution is found.
+    from ``near``, if given. Raises ArithmeticError or ValueError if no solution is found.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -122,7 +121,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call stores the solution with 40 digits in ``solution``, where the calls of step() below start.
+        # This call stores a solution with 40 digits in ``solution``. The calls of step() below start from it.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

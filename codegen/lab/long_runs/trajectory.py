@@ -23,20 +23,21 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity are said to cancel if their sum is small compared with the terms.
+"""The bound that decides whether the terms of a quantity cancel.
 
-The sum is small if its absolute value is at most CANCELLED times the sum of the absolute values of the terms.
+The terms cancel if the absolute value of their sum is at most CANCELLED times the sum of their absolute
+values.
 """
 
 CHUNK = 100_000
 """A long run is divided into chunks of about CHUNK steps. The states of only one chunk are in memory."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
-"""A function that evaluates a quantity at many states. Its arguments are an array of states and an array of
-times.
+"""A function that evaluates a quantity at many states.
 
-Each row of the first array contains the values of one coordinate. The result has one row for each component
-of the quantity.
+The first argument is an array with one row for each coordinate and one column for each state. The second
+argument contains the times of the states. The result has one row for each component of the quantity, and one
+column for each state.
 """
 
 FUNCTIONS = of_arrays(numpy)
@@ -46,13 +47,13 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
-    A deviation is the value of the quantity minus ``start``. For an invariant, ``start`` is the initial
-    value. For the equations of the manifold, ``start`` is zero, and the deviation is the largest absolute
-    residual. The lists have one entry for each interval:
+    The deviation of an invariant is its value minus its initial value ``start``. The deviation of the
+    manifold equations is their largest absolute residual, and ``start`` is zero. Each list has one entry for
+    each interval:
 
     - ``deviations``: the mean deviation.
     - ``peaks``: the largest absolute deviation.
-    - ``lows``: the smallest absolute deviation, or zero if the deviation changes its sign in the interval.
+    - ``lows``: the smallest absolute deviation, or zero if the deviation changes sign.
     """
 
     start: float
@@ -67,7 +68,7 @@ class Series:
         """
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
-        with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow to infinity.
+        with numpy.errstate(all="ignore"):  # The sum may overflow. Then the mean is infinite.
             self.deviations.append(float(values.mean()))
         self.peaks.append(float(absolute.max()))
         self.lows.append(0.0 if crosses else float(absolute.min()))
@@ -89,7 +90,7 @@ class Trajectory:
     - ``failure``: the message of a failed step, or ''.
     - ``counts``: for each sample, the number of steps since the beginning of the run.
     - ``scales``: the size of each quantity (:func:`scale`).
-    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms in the initial state.
+    - ``magnitudes``: the magnitude of each quantity, which is the sum of the absolute values of its terms.
     """
 
     times: list[float]
@@ -135,7 +136,7 @@ def record(
 
 
 def scale(start: float, magnitude: float) -> float:
-    """Return the size of a quantity, by which its deviations are divided.
+    """Return the size of a conserved quantity. Deviations are divided by this size.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
     terms. The size is usually the absolute value of ``start``. If the terms cancel (:data:`CANCELLED`), the
@@ -148,11 +149,11 @@ def scale(start: float, magnitude: float) -> float:
 
 
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
-    """Return the magnitude of each conserved quantity at the initial state.
+    """Return the magnitude of each conserved quantity.
 
-    The magnitude of a quantity is the sum of the absolute values of its terms. If this sum is zero at the
-    initial state, the largest sum in the first tenth of the samples replaces it. The magnitude of the
-    equations of the manifold is always 1.
+    The magnitude is the sum of the absolute values of the terms of the quantity at the initial state. If this
+    sum is zero, the magnitude is the largest such sum in the first tenth of the samples. The magnitude of the
+    manifold equations is always 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])

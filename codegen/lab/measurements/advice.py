@@ -23,7 +23,7 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The safety factor of predicted CPU times. With a larger factor, the search measures more methods."""
+"""The search divides predicted CPU times by this factor. A larger factor admits more methods."""
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,8 @@ class Advised:
 
     - ``method``: the name of the method or peer.
     - ``seconds``: the CPU time of a run that reaches the error.
-    - ``h``: the step size, or None with step-size control.
-    - ``tolerance``: the tolerance, or None with equal steps.
+    - ``h``: the step size. It is None if the method controls its step size.
+    - ``tolerance``: the tolerance of the step-size control. It is None if all steps are equal.
     - ``steps``: the number of steps.
     - ``command``: the command that emits the integrator.
 
@@ -66,7 +66,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The result of a search. ``lines`` contains the fastest methods for each requirement.
+    """The result of a search. ``lines`` contains one :class:`Line` for each requirement.
 
     ``complete`` is False if the time limit ended the search.
     """
@@ -98,10 +98,9 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search for the fastest methods, and determine properties of all methods that the report measures.
+        """Search for the fastest methods, and determine the properties of the measured methods.
 
-        If the user named methods, the search considers only these methods. Otherwise it considers the whole
-        library.
+        If the user named methods, only these methods are searched. Otherwise the whole library is searched.
         """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
@@ -125,12 +124,12 @@ class Advice(Measurement[Recommendations]):
     def as_json(self, result: Recommendations) -> object:
         """Return the fastest method for each requirement and error as plain data.
 
-        The data contain the step size or tolerance, the CPU time, and the command that emits the integrator.
+        The data of a method contain its CPU time, its step size or tolerance, and the command that emits it.
         """
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence with the fastest methods for the largest and for the smallest reached error."""
+        """Return a sentence with the fastest methods for the largest and the smallest error in the table."""
         own = result.advice[0].best if result.advice else ()
         choices = [
             f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
@@ -142,7 +141,7 @@ class Advice(Measurement[Recommendations]):
         return f"The fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
-        """Return the section with the table of the fastest methods and the table of properties of methods."""
+        """Return the section with two tables: the fastest methods, and the properties of methods."""
         return Section(BODY, {"advice": table(result, subject), "features": result.features})
 
     def overview(self, result: Recommendations, subject: Subject) -> Section:
@@ -151,7 +150,7 @@ class Advice(Measurement[Recommendations]):
 
 
 def searched(task: Task, subject: Subject) -> Searched:
-    """Search for the fastest methods for all requirements and errors, and return the result."""
+    """Search for the fastest method for each requirement and each error of :data:`DECADES`."""
     goals = {(r.name, k): r.goal(k) for r in REQUIREMENTS for k in DECADES}
     search = Search(task, tuple(dict.fromkeys(goals.values())), subject.progress, SAFETY)
     search.run()
@@ -167,7 +166,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Convert ``place``, a result of the search for the error 10^-k, to the class :class:`Advised`."""
+    """Return an :class:`Advised` with the data of ``place``, the result of the search for the error 10^-k."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -183,12 +182,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the result of an incomplete search, improved with the methods that the report measures.
+    """Return the lines of an incomplete search, improved with the methods that the report measures.
 
-    For each requirement and error, the fastest suitable method of the report is determined. The CPU time of
-    this method is interpolated between its runs. If the search found no method or a slower method, the
-    result contains the method of the report. The results for requirements that concern long times are not
-    changed, because only the search makes long runs.
+    ``known`` contains the properties of the measured methods, and ``entries`` contains their runs. The CPU
+    time for an error is interpolated between the runs of a method. For each requirement and error, the
+    result contains the fastest suitable method of the search and the report. Requirements on long times are
+    skipped, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -208,10 +207,10 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which the CPU times increase, or stay equal, as the errors decrease.
+    """Return a copy of ``line`` in which no larger error has a longer CPU time.
 
-    An entry of ``line`` is replaced if the entry for a smaller error has a shorter time. This is correct,
-    because a method that reaches the smaller error also reaches the larger error.
+    A method that reaches an error also reaches every larger error. If the entry for the next smaller
+    error has a shorter time, the copy therefore contains this entry for both errors.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
@@ -222,9 +221,9 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple with one :class:`Line`: the fastest peer (other integrator) for each error.
+    """Return a tuple with one :class:`Line`, which contains the fastest peer for each error.
 
-    The tuple is empty if no peer was measured.
+    A peer is another integrator. If no peer was measured, the tuple is empty.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:
@@ -240,8 +239,8 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
     """Return the recommendations as a table with one row for each error.
 
-    There is a column for each requirement that at least one method satisfies. The entry ``unmet`` of the
-    result lists the requirements that no method satisfies.
+    There is a column for each requirement that at least one method satisfies. The entry ``unmet`` lists the
+    other requirements.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [
@@ -261,8 +260,8 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The texts are the name of the method, the CPU time, the step size or tolerance with the number of steps,
-    and the command that emits the integrator.
+    The text ``control`` contains the step size or the tolerance, and the number of steps. The other texts are
+    the name of the method, the CPU time, and the command that emits the integrator.
     """
     if best is None:
         return None

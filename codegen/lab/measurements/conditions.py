@@ -28,8 +28,9 @@ For higher orders, only the conditions that a method violates are shown.
 """
 
 LONGEST = 48
-"""The largest number of characters of a residual that is shown exactly. A longer one is shown as a decimal
-number.
+"""A residual is shown exactly if its text has at most LONGEST characters.
+
+A longer residual is shown as a decimal number.
 """
 
 
@@ -45,7 +46,7 @@ class FamilyConditions:
 
     @property
     def counts(self) -> str:
-        """The numbers of conditions of order 1, 2, and so on, as text."""
+        """The number of conditions of each order, separated by commas."""
         return ", ".join(str(len(rows)) for _, rows in self.by_order)
 
 
@@ -74,7 +75,7 @@ class Conditions(Measurement[ConditionTables]):
         return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 
     def as_json(self, result: ConditionTables) -> object:
-        """Return the numbers of conditions of each family, and the violated conditions of each method."""
+        """Return the numbers of conditions by family and order, and the violated conditions by method."""
         return {
             "counts": {f.family: [len(rows) for _, rows in f.by_order] for f in result.families},
             "violated": {
@@ -86,16 +87,19 @@ class Conditions(Measurement[ConditionTables]):
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
         """Return a sentence that states for how many methods the computed order is exact.
 
-        The computed order is exact if the method violates a condition of the next higher order.
+        The computed order of a method is exact if the method violates a condition of the next order.
         """
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
         count = f"{exact} of {total}" if exact < total or total == 1 else f"all {total}"
-        return f"The computed order is exact for {count} methods: they violate conditions of the next order."
+        return (
+            f"The computed order is exact for {count} methods, "
+            "because each of these methods violates a condition of the next order."
+        )
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
-        """Return the section with a table of conditions for each family, and the violated conditions."""
+        """Return the section with the conditions of each family, and the conditions that methods violate."""
         if not result.methods:
             return None
         families = [
@@ -111,9 +115,10 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return a pair (family, order) for each family of the methods.
+    """Return a pair (family, n) for each family whose conditions the report shows.
 
-    The report shows all conditions of the family up to the order in the pair.
+    The report shows the conditions of the orders 1 to n. The number n is the highest order of the methods of
+    the family, but at most DEEPEST.
     """
     highest: dict[str, int] = {}
     for each in study:

@@ -36,7 +36,7 @@ class Cost(Measurement[CostResult]):
 
     name = "cost"
     title = "Error against run time"
-    about = "the error and the CPU time of methods and peers (other integrators); the operations of a step"
+    about = "the errors and the CPU times of methods and other integrators, and the operations per step"
 
     def run(self, subject: Subject) -> CostResult:
         """Measure all methods and peers (other integrators) of the subject.
@@ -83,9 +83,9 @@ class Cost(Measurement[CostResult]):
             winners.setdefault(place.winner.partition(" (")[0], []).append(place.decade)
         first, last = decade(places[0].decade), decade(places[-1].decade)
         if len(winners) == 1:
-            return f"At every error from {first} to {last}, the fastest is {next(iter(winners))}."
-        choices = [f"{label} at {_decades(ks)}" for label, ks in winners.items()]
-        return f"The fastest is {enumeration(choices)}."
+            return f"For every error from {first} to {last}, the fastest integrator is {next(iter(winners))}."
+        choices = [f"{label} for errors of {_decades(ks)}" for label, ks in winners.items()]
+        return f"The fastest integrator is {enumeration(choices)}."
 
     def section(self, result: CostResult, subject: Subject) -> Section:
         """Return the section with the work-precision diagram and its tables."""
@@ -97,7 +97,7 @@ class Cost(Measurement[CostResult]):
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables of the template of the section about run times."""
+    """Return the variables for the template of the section."""
     name, last = result.scene.name, float(result.scene.span[1])
     title = f"Error against CPU time, {result.scene.title}"
     picture = efficiency_figure(
@@ -109,7 +109,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
             "Error against the CPU time of the whole run. Each point shows the shortest of several measured "
             "times. A broad line extends from the point to the upper quartile of the times. Dashed lines "
             "with open markers show peers (other integrators). Dash-dotted lines show methods with step-size "
-            "control. Dotted lines show the slopes of methods of order p with equal steps.",
+            "control. Dotted lines show the slope for a method of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [

@@ -1,7 +1,7 @@
 """The section about the emitted code of each method.
 
-It shows the arithmetic operations of a step, and the emitted files. It also lists operations and arguments
-that are left out because the scene and the method do not need them.
+It shows the arithmetic operations of a step, and the emitted files. It also lists the operations and
+function arguments that the code does not need.
 """
 
 from __future__ import annotations

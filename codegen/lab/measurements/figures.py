@@ -19,10 +19,10 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Stored:
-    """A drawn figure as the cache stores it.
+    """A drawn figure in the cache.
 
-    ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` maps names to numbers
-    that the figure shows.
+    ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` maps names to the
+    numbers in the figure.
     """
 
     svg: str
@@ -92,7 +92,7 @@ class Figures(Measurement[Results]):
         return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C code."
 
     def section(self, result: Results, subject: Subject) -> Section | None:
-        """Return the section with the pictures, their captions, and the commands that draw them."""
+        """Return the section with the pictures. Each picture has a caption and the command that draws it."""
         if not result:
             return None
         pictures = [_picture(one.figure, one.drawn, subject) for one in result if one.drawn is not None]

@@ -1,6 +1,4 @@
-"""The section about long runs: the deviations of conserved quantities such as the energy, and their
-growth.
-"""
+"""The section about long runs: the growth of the deviations of conserved quantities such as the energy."""
 
 from __future__ import annotations
 
@@ -29,7 +27,7 @@ class LongRuns(Measurement[Result]):
 
     name = "long"
     title = "Long runs"
-    about = "drift of conserved quantities over many steps; growth of rounding errors"
+    about = "drift of conserved quantities and growth of rounding errors over many steps"
     json_key = "longruns"
 
     def run(self, subject: Subject) -> Result:
@@ -62,11 +60,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about the growth of the deviation of one conserved quantity with each method.
+        """Return a sentence that states for each method how the deviation of a conserved quantity grows.
 
-        The quantity is the energy, or the first invariant if the scene has no energy. If the scene has no
-        invariants, the quantity is the residual of the manifold equations. The sentence names each law of
-        growth that occurs, such as ``bounded`` or ``drift``, and the methods with this law.
+        The quantity is the energy. If the scene has no energy, the first invariant is used. If the scene has
+        no invariants, the residual of the manifold equations is used. For each law of growth, such as
+        ``bounded`` or ``drift``, the sentence lists the methods with this law.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -74,8 +72,10 @@ class LongRuns(Measurement[Result]):
                 for kept in run.kept:
                     if kept.name == name:
                         laws.setdefault(kept.drift.law, []).append(run.method)
-            listed = "; ".join(f"{law}: {enumeration(methods)}" for law, methods in laws.items())
-            return f"Deviation of the {name} over {_count(subject.effort.steps)} steps: {listed}."
+            listed = "; ".join(f"{law} for {enumeration(methods)}" for law, methods in laws.items())
+            return (
+                f"Growth of the deviation of the {name} over {_count(subject.effort.steps)} steps: {listed}."
+            )
         return ""
 
     def section(self, result: Result, subject: Subject) -> Section:
@@ -100,8 +100,8 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities for which the section shows a diagram.
 
-    The first name is the energy, or the first invariant if the scene has no energy. The name of the manifold
-    equations follows if the scene has such equations.
+    The first quantity is the energy. If the scene has no energy, the first quantity is the first invariant.
+    If the scene has manifold equations, the last quantity is their residual.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
@@ -121,7 +121,8 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
             pictures.append(
                 Picture(
                     growth_figure(f"{runs[0].scene} {name}", title, curves, f"largest deviation of {name}"),
-                    f"The largest deviation of the {name} up to each time t. Dotted: growth like √t and t.",
+                    f"The largest deviation of the {name} up to each time t. "
+                    "Dotted lines show growth proportional to √t and to t.",
                     subject.report_command("long"),
                 )
             )
@@ -129,10 +130,10 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d), where d is the largest deviation of a quantity up to the time t.
+    """Return points (t, d). Here d is the largest deviation of the quantity ``name`` up to the time t.
 
-    A time is included only if d has grown by more than 2 % since the last included time. The final time is
-    also included if all deviations are finite.
+    A new point is added when d has grown by more than 2 % since the previous point. If all deviations are
+    finite, the final time is added too.
     """
     for kept in run.kept:
         if kept.name != name:

@@ -1,4 +1,4 @@
-"""The section about orders: the order from the order conditions, and the order observed with emitted code."""
+"""The section that compares the computed order of each method with the order observed in runs."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Orders(Measurement[Result]):
     json_key = "methods"
 
     def run(self, subject: Subject) -> Result:
-        """Run every method with shorter and shorter steps."""
+        """Run every method with decreasing step sizes, and determine the observed order."""
         exact, progress, cache = subject.exact, subject.progress, subject.cache
         return subject.each(lambda m: order_study(m.compiled, exact, progress, cache))
 
@@ -121,6 +121,6 @@ def _picture(studies: Iterable[OrderStudy], subject: Subject) -> Picture:
     title = f"Error against step size, {scene.title}"
     return Picture(
         convergence_figure(f"{scene.name} convergence", title, curves, f"error at t = {scene.span[1]}"),
-        "Error of the emitted code against the step size. Dashed: the slope of each computed order.",
+        "Error of the emitted code against the step size. Dashed lines have the slope of a computed order.",
         subject.report_command("orders"),
     )
