@@ -30,7 +30,8 @@ def of_scalars(source: object) -> Functions:
     """Return the functions that formulas may call, for one type of numbers.
 
     ``source`` is a module or class with the functions of these numbers, such as ``sin`` and ``sqrt``. For
-    floats, ``source`` is the module ``math``. The numbers must allow comparisons with ``<``.
+    floats, ``source`` is the module ``math``. Case distinctions and tables compare numbers. The numbers must
+    therefore have the operators ``<``, ``<=`` and ``>``.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -86,10 +87,11 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
     """Return the numbers that define a piecewise polynomial. ``constant`` converts each number.
 
-    On each interval, the piecewise polynomial is a polynomial in x - b, where b is the base point of the
-    interval. The first list contains the knots, which separate the intervals. The second list contains the
-    base point of each interval. Each further list belongs to one power of x - b, and contains the coefficient
-    of this power on each interval.
+    On an interval with base point b, the polynomial is c_0 + c_1 (x - b) + c_2 (x - b)^2 + ...
+
+    - The first list contains the knots, which separate the intervals.
+    - The second list contains the base points of the intervals.
+    - The third list contains c_0 for each interval, the next list c_1, and so on.
     """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

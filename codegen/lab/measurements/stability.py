@@ -1,5 +1,7 @@
-"""The section about stability: the largest usable step, steps with extreme input, stiff variants of the
-scene, runs of many steps, and linear stability.
+"""The report section about stability.
+
+The section contains the largest usable step and the results of steps with extreme input. It also contains
+the results for stiff variants of the scene, runs of many steps, and linear stability.
 """
 
 from __future__ import annotations
@@ -31,14 +33,14 @@ Result = MethodResults[Stability]
 
 
 class StabilityTests(Measurement[Result]):
-    """Makes all stability tests, and computes the linear stability of each method."""
+    """Runs the stability tests of each method, and computes its region of linear stability."""
 
     name = "stability"
     title = "Stability"
     about = "the largest usable step, extreme input, stiff variants, runs of many steps"
 
     def run(self, subject: Subject) -> Result:
-        """Make all stability tests of every method."""
+        """Run the stability tests of each method."""
         effort, scene = subject.effort, subject.scene
         exact = subject.exact_or_reason
         known = exact if isinstance(exact, str) else exact.digits()
@@ -60,16 +62,17 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if all methods could be tested and passed the tests.
+        """Return True if all methods were tested and passed.
 
-        A method passes if no step with extreme input has a wrong result, and if its runs of many steps
-        pass (:mod:`codegen.lab.stability.endurance`).
+        A method fails if a step with extreme input has a wrong result. A method also fails if one of its runs
+        of many steps fails (:mod:`codegen.lab.stability.endurance`).
         """
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return a line for each wrong result of a step with extreme input, and for each method that was not
-        tested.
+        """Return one line for each wrong result of a step with extreme input.
+
+        Each method that was not tested adds one line with the reason.
         """
         for stability in result.measured:
             for wrong in stability.wrong:
@@ -80,7 +83,8 @@ class StabilityTests(Measurement[Result]):
     def verdict(self, result: Result, subject: Subject) -> str:
         """Return a sentence about wrong results for extreme input, and about the longest usable step.
 
-        The sentence names the methods with the longest usable step, or states their number.
+        The sentence names the methods with the longest usable step. If there are more than :data:`NAMED`
+        such methods, the sentence states only their number.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
@@ -107,9 +111,9 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph that states how many steps with extreme input have a wrong result.
+        """Return a paragraph with the number of wrong results of steps with extreme input.
 
-        The result is None if no step with extreme input was made.
+        If no steps with extreme input were tested, return None.
         """
         answers = sum(len(s.findings.answers) for s in result.measured)
         wrong = sum(len(s.wrong) for s in result.measured)
@@ -202,9 +206,9 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return a text about the final state of a run of many steps.
+    """Return the number of steps of a long run and the error of its final state, as text.
 
-    If a step of the run failed, the text is the status message of this step.
+    If a step failed, return the status message of this step.
     """
     if run.failure:
         return run.failure

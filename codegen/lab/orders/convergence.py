@@ -27,12 +27,13 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-Such an order comes from the user or from the tableau file. Runs with very short steps must confirm it.
+Such an order comes from the user or from the tableau file. Runs with very short steps must confirm the order.
 """
 
 FEWEST = 4
-"""The smallest number of usable runs. Four runs give three slopes. With fewer slopes, it cannot be decided if
-the slopes have settled.
+"""The smallest number of usable runs.
+
+Four runs give three slopes. The test whether the slopes have settled needs three slopes.
 """
 
 
@@ -61,9 +62,9 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        The observed order is usually the last slope. Kinks of the solution make the slopes irregular. If
-        kinks limit the order to a value below the stated order (:attr:`limit`), the observed order is the
-        slope between the first and the last usable run.
+        If :attr:`limit` is at least the stated order, the observed order is the last slope. Otherwise kinks
+        of the solution make the slopes irregular. The observed order is then the slope between the first and
+        the last usable run.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -84,18 +85,20 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that any method with equal steps can show on this scene.
+        """An upper bound of the order that runs with equal steps can show on this scene.
 
-        The order is limited by kinks (points of the solution at which the field is not smooth). If there are
-        no kinks, the limit is infinity.
+        The bound comes from kinks (points of the solution at which the field is not smooth). If there are no
+        kinks, the bound is infinity.
         """
         # Let k derivatives of the field be continuous at a kink. In each run, one step crosses the kink. The
-        # local error of this step is proportional to h^(k+2), and it remains a part of the final error.
+        # local error of this step is proportional to h^(k+2). This local error is a part of the final error,
+        # so the order is at most k + 2.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object that ``orderconds converge`` prints. An error that is not finite becomes
-        None.
+        """Return the JSON object that ``orderconds converge`` prints.
+
+        In the entry ``error``, None replaces infinite errors.
         """
         runs = self.refinement.runs
         observed = self.observed
@@ -174,7 +177,7 @@ class NotEmitted:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds converge`` prints.
 
-        The lists that contain one entry for each run are empty, because the method cannot be run.
+        There are no runs, so the lists are empty.
         """
         empty: list[object] = []
         return {
@@ -213,9 +216,10 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps of the runs. If ``steps`` is empty, runs with 5, 10, 20, ... steps are
-      made until the slopes have settled or ``runner.most_steps`` is reached.
-    - ``to_rounding``: True to continue until rounding errors dominate.
+    - ``steps``: the numbers of steps of the runs. If ``steps`` is empty, the runs have 5, 10, 20, ...
+      steps (:func:`codegen.lab.orders.step_sizes.refine`). No run has more than ``runner.most_steps`` steps.
+    - ``to_rounding``: If True, the runs continue until rounding errors dominate, even if the slopes have
+      settled.
     - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 
     Final states are converted to the coordinates of the scene before errors are measured.

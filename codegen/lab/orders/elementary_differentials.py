@@ -2,9 +2,9 @@
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
 that maps y to x.y is called a frozen field. To differentiate a function g along a frozen field, y is replaced
-by y + eps x.y, where eps^2 = 0. The derivative is the coefficient of eps in the value of g. For a derivative
-along k frozen fields, k numbers eps_1, ..., eps_k are used. The derivative is then the coefficient of their
-product. The scene must be polynomial in its coordinates.
+by y + eps x.y, where eps^2 = 0. The derivative is the coefficient of eps in the value of g. A derivative
+along k frozen fields uses k numbers eps_1, ..., eps_k. It is the coefficient of the product eps_1 ... eps_k
+in the value of g. The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class RingDomain(Domain):
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because this arithmetic cannot solve implicit equations by iteration."""
-        raise ArithmeticError("elementary differentials cannot be computed with implicit equations")
+        raise ArithmeticError("elementary differentials cannot be computed for implicit equations")
 
 
 def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
@@ -74,10 +74,9 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field f of an autonomous scene at its initial point.
 
-    The function f maps a point to an element of the Lie algebra. :meth:`tree` returns the elementary
-    differential of an ordered tree t (:mod:`orderconds.trees.levels`). This element of the Lie algebra is
-    denoted F(t). The tangent vector that F(t) generates at a point y is denoted F(t).y. The vector field that
-    maps y to F(t).y is called the frozen field of t.
+    The function f maps a point to an element of the Lie algebra. The elementary differential F(t) of an
+    ordered tree t (:mod:`orderconds.trees.levels`) is also an element of the Lie algebra. At a point y, F(t)
+    generates the tangent vector F(t).y. The frozen field of t is the vector field that maps y to F(t).y.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -90,7 +89,7 @@ class FrozenFields:
         """Return the elementary differential F(t) of a tree t.
 
         F(t) is an element of the Lie algebra. It is a derivative of f at the initial point. For each branch b
-        of t, f is differentiated once along the frozen field of b.
+        of t, f is differentiated once along the vector field that maps y to F(b).y.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -101,7 +100,8 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return a derivative of the coordinates of a point, evaluated at the initial point.
 
-        For each tree t of the forest, the coordinates are differentiated once along the frozen field of t.
+        For each tree t of the forest, the coordinates are differentiated once along the vector field that
+        maps y to F(t).y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -117,12 +117,15 @@ class FrozenFields:
 
 
 class CanonicalFields:
-    """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
+    """The elementary differentials of Hamilton's equations on T*R^n, for trees with directed edges.
 
-    A vertex denotes a derivative of the Hamiltonian H(q, mu). For each branch at the vertex, H is
-    differentiated once. Let (xi, nu) be the pair that :meth:`tree` returns for the branch. If the branch has
-    kind 0, H is differentiated with respect to q in the direction xi. If the branch has kind 1, H is
-    differentiated with respect to mu in the direction nu (:mod:`orderconds.trees.directed`).
+    The elementary differential of a tree is a pair (xi, nu). Let K be the derivative of the Hamiltonian
+    H(q, mu) along one direction for each branch at the root. Then xi is the derivative of K with respect to
+    mu, and -nu is the derivative of K with respect to q.
+
+    Each branch is a tree and has its own pair (xi, nu). If the branch has kind 0, the direction is xi, and H
+    is differentiated with respect to q. If the branch has kind 1, the direction is nu, and H is
+    differentiated with respect to mu. The module :mod:`orderconds.trees.directed` defines the kinds.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -132,11 +135,9 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return the elementary differential of a tree: the pair (xi, nu) = (D_mu K, -D_q K).
+        """Return the elementary differential of a tree: the numbers of xi, followed by the numbers of nu.
 
-        K is a derivative of the Hamiltonian H(q, mu). For each branch at the root, H is differentiated once
-        (see the docstring of the class). D_mu and D_q denote derivatives with respect to mu and q. The
-        pair is returned as one tuple of numbers.
+        The docstring of the class defines xi and nu.
         """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
@@ -154,8 +155,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    The differentials are velocities in the Lie algebra, and covectors in its dual. A group element
-    is represented by a matrix. If the group is R^n, this matrix is the matrix of a translation.
+    An elementary differential is a velocity in the Lie algebra, or a covector in the dual of the Lie algebra.
+    Matrices represent the group elements. If the group is R^n, these are the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

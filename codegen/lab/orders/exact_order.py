@@ -41,7 +41,7 @@ class ExactLocalError:
 
     - ``certified``: the order from the order conditions.
     - ``vanishes``: True if all computed coefficients of the local error are zero.
-    - ``order``: the exact order. If ``vanishes`` is True, ``order`` is a lower bound of the exact order.
+    - ``order``: the exact order, or a lower bound of the exact order if ``vanishes`` is True.
     - ``symbols``: the names of the coordinates.
     - ``start``: the initial state.
     - ``coefficients``: the coefficients of h^(``order`` + 1), one for each coordinate. If ``vanishes`` is
@@ -59,8 +59,9 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the exact order is at least the order from the order conditions, and otherwise
-        ``fails``.
+        """The verdict ``holds`` or ``fails``.
+
+        If the exact order is at least the order from the order conditions, the verdict is ``holds``.
         """
         return "holds" if self.order >= self.certified.order else "fails"
 
@@ -104,7 +105,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The entries ``stated_order`` and ``order`` are None.
+        The object contains no orders: the entries ``stated_order`` and ``order`` are None.
         """
         return {
             "scene": self.scene,
@@ -123,7 +124,7 @@ class NotExact:
 def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | NotExact:
     """Return the leading term of the local error of a method on a scene.
 
-    If it cannot be computed exactly, return the reason.
+    If this term cannot be computed exactly, return a :class:`NotExact` object with the reason.
     """
     try:
         return exact_local_error(scene, method)
@@ -134,15 +135,16 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of one step, for a method on a scene.
 
-    Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates, for example if
-    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients of the method are balls
-    (intervals), because a ball cannot prove that a number is zero.
+    Raises :class:`codegen.errors.SceneError` if the field is not smooth at the initial state. SceneError is
+    also raised if the Taylor coefficients of the local error cannot be computed exactly, for example if the
+    field calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients of the method are
+    balls (intervals), because a ball cannot prove that a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)
     if ring.is_zero(third - third) is not True:
         raise MethodError(
-            f"the coefficients of {method.label} are intervals and not exact numbers",
+            f"the coefficients of {method.label} are intervals, not exact numbers",
             expected="exact coefficients, because intervals cannot prove that a term of the error is zero",
         )
     certified = certified_order(method, scene)
@@ -165,7 +167,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         raise SceneError(
             f"the local error cannot be computed exactly: {reason}",
             where=scene.name,
-            expected="a field and flows that are rational functions of the coordinates",
+            expected="a scene whose field and flows are rational functions of the coordinates",
             hint="use orderconds converge, which estimates the order from slopes",
         ) from reason
     power = min(int(x.ring.valuation(x)) for x in error)

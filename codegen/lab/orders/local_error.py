@@ -6,8 +6,8 @@ after one step. Picard iteration gives the series of the exact solution. The dif
 the local error. Its lowest power is h^(p+1), where p is the order.
 
 In the second way, the coefficient of h^(p+1) is a sum over the order conditions. Each summand is the residual
-of a condition times an elementary differential. Both ways must give the same coefficient. This is a test of
-the program.
+of a condition times an elementary differential. The two results must be equal. This comparison
+tests the program of the step.
 """
 
 from __future__ import annotations
@@ -104,15 +104,15 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Compute the coefficient of h^``power`` in the local error from the order conditions.
 
     The result contains one number for each coordinate. The method must satisfy all order conditions of orders
-    lower than ``power``. ``scene`` is the problem for which
-    the program of the step was generated. The scene must be autonomous and polynomial. If ``method`` is a
+    lower than ``power``. ``scene`` is the problem that :func:`codegen.lower.problem_for` returns for the
+    method. The scene must be autonomous and polynomial. If ``method`` is a
     symplectic partitioned method, the scene must also be Hamiltonian on T*R^n.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
     if scene.coordinates is not None:
         raise SceneError(
-            f"a scene whose steps are computed in the coordinates {scene.coordinates.name}",
+            f"the steps are computed in the coordinates {scene.coordinates.name}",
             where=scene.name,
             expected="exponential coordinates, which the order conditions assume",
         )
@@ -163,9 +163,9 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over ordered forests w.
 
-    The sum contains the terms of order ``power`` in the Lie-Butcher series of the local error. The summand of
-    w is d(w) F(w), where F(w) is the elementary differential of w. The number d(w) is the coefficient of w in
-    the numerical solution minus its coefficient in the exact solution.
+    The summand of w is d(w) F(w), where F(w) is the elementary differential of w. The number d(w) is the
+    coefficient of w in the Lie-Butcher series of the numerical solution, minus the coefficient of w in the
+    series of the exact solution.
     """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
@@ -175,9 +175,9 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over trees t with directed edges.
 
-    The sum contains the terms of order ``power`` in the P-series of the local error. The summand of t is
-    F(t) r(t) / s(t). Here F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`), r(t) is
-    the residual of the order condition of t, and s(t) is the number of automorphisms of t.
+    The summand of t is F(t) r(t) / s(t). Here F(t) is the elementary differential of t
+    (:meth:`CanonicalFields.tree`), r(t) is the residual of the order condition of t, and s(t) is the number
+    of automorphisms of t.
     """
     fields = CanonicalFields(scene, method.ring)
     terms = [
@@ -188,11 +188,11 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficient of h^``power`` in the local error of a variational method, as a sum over words.
+    """Return the coefficient of h^``power`` in the local error of a variational method.
 
-    A word is a sequence of trees. For each word w, let d(w) be the coefficient of w in the series of the
-    numerical solution minus the coefficient of w in the series of the exact solution. The summand of w is
-    d(w) times a vector that depends only on w and the scene.
+    The coefficient is a sum over words. A word w is a sequence of trees. Let d(w) be the coefficient of w in
+    the series of the numerical solution, minus the coefficient of w in the series of the exact solution. The
+    summand of w is d(w) times a vector, which does not depend on the method.
     """
     ring = method.ring
     family = family_of(method)

@@ -23,11 +23,7 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps of the runs that test if all targets compute the same result.
-
-The final state of the first target is compared with the final states of the remaining targets and of the
-interpreter. If one of these runs fails, all of them are repeated with a larger number of steps.
-"""
+"""The smallest number of steps for a comparison of the targets (:func:`largest_difference`)."""
 
 MOST_TIMED = 2560
 """The number of steps of the longest run whose CPU time is measured."""
@@ -40,9 +36,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target, such as C or Python.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference of a coordinate between final states of different targets
-      (:func:`largest_difference`). The interpreter is compared like a target. ``spread`` is None if the final
-      states could not be compared.
+    - ``spread``: the largest difference of a coordinate between the final state of the first target and the
+      final states of the other targets and of the interpreter (:func:`largest_difference`). If the final
+      states could not be compared, ``spread`` is None.
     - ``artifact``: the emitted files for the default target.
     """
 
@@ -60,8 +56,9 @@ class OrderStudy:
 
     @property
     def verdict(self) -> str:
-        """The worst verdict of all targets. ``fails`` is worse than ``undecided``, and ``undecided`` is worse
-        than ``holds``.
+        """The worst verdict among the targets.
+
+        The verdicts, from worst to best, are ``fails``, ``undecided`` and ``holds``.
         """
         verdicts = {c.verdict for c in self.convergences.values()}
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
@@ -126,11 +123,11 @@ def order_study(
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Compare the final state of the first runner with the final states of the remaining runners.
+    """Return the largest difference of a coordinate between final states of the runners.
 
-    Return the largest difference of a coordinate. All runners make the same number of steps. Entries of
-    ``steps`` below :data:`COMPARED` are ignored. The first of the remaining entries is used for which all
-    runs succeed. If there is none, the result is None.
+    The final state of the first runner is compared with the final state of each other runner. All runners
+    make n steps. Here n is the first entry of ``steps`` that is at least :data:`COMPARED` and with which all
+    runs succeed. If there is no such entry, the result is None.
     """
     for n in steps:
         if n < COMPARED:

@@ -34,8 +34,8 @@ class ConvergenceTest:
     """A convergence test of methods on a scene.
 
     :meth:`of` creates a test from the arguments of the user, and :meth:`result` runs one method.
-    ``equations`` is the problem that the methods integrate. If ``form`` is None, the problem is ``scene``.
-    Otherwise it consists of the equations of the scene in the variables of ``form``.
+    ``equations`` is the problem that the methods integrate: the equations of the scene in the variables of
+    ``form``. If ``form`` is None, ``equations`` is ``scene``.
     """
 
     scene: Problem
@@ -107,7 +107,7 @@ class Convergences:
         return self.results[index]
 
     def __bool__(self) -> bool:
-        """Return True if every observed order equals the stated order."""
+        """Return True if every result has the verdict ``holds``."""
         return all(result.verdict == "holds" for result in self.results)
 
     def __repr__(self) -> str:
@@ -131,9 +131,9 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene, and compare it with the expected order.
+    """Measure the order of methods on a scene, and compare the measured order with the expected order.
 
-    The expected order is ``stated``. If ``stated`` is None, it is the order from the order conditions. The
+    The expected order is ``stated``. If ``stated`` is None, the order conditions give the expected order. The
     arguments are those of the command ``orderconds converge``. A method is given by its name or by an
     :class:`orderconds.Tableau`. If a method cannot be emitted for the scene, its result contains the reason.
     Wrong arguments raise InputError or one of its subclasses SceneError, MethodError, UnknownName and
