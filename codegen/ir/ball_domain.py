@@ -22,6 +22,7 @@ from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.exponential_action import ExponentialAction
+from codegen.ir.matrix_balls import ball, block_matrix, exponent_of, exponential, midpoint
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
@@ -77,18 +78,11 @@ class BallDomain:
             return self.rational(x.numerator, x.denominator)
         if isinstance(x, int | float):
             return arb(x)
-        sign, mantissa, exponent, _ = x._mpf_
-        if not mantissa:
-            # mpmath represents infinities and NaN by a zero mantissa and a non-zero exponent.
-            return arb(0) if not exponent else arb(float(x))
-        return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
+        return ball(x)
 
     def mpf(self, x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
         """Convert a scalar of this domain to an mpmath number of the mpmath context ``context``."""
-        if not x.is_finite():
-            return context.nan
-        mantissa, exponent = x.mid().man_exp()
-        return context.mpf((int(mantissa), int(exponent)))
+        return midpoint(x, context)
 
     def number(self, value: Number) -> arb:
         """Return the number ``value``, rounded to the working precision."""
@@ -98,8 +92,8 @@ class BallDomain:
         with precision(self.bits + 16):
             # ``approximate`` returns a decimal text. A precision of b bits corresponds to 0.301 b decimal
             # digits. The text has b/3 + 5 digits, so its rounding error is negligible.
-            ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
-        return ball.mid()
+            enclosure = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
+        return enclosure.mid()
 
     def rational(self, p: int, q: int = 1) -> arb:
         """Return p/q, rounded to the working precision."""
@@ -121,7 +115,7 @@ class BallDomain:
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
-        if any(_exponent(x) > LARGEST_BITS for x in args):
+        if any(exponent_of(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), z)
@@ -138,29 +132,12 @@ class BallDomain:
     def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
         """Return the results of a vector function.
 
-        The derivative of the exponential of a matrix A in the direction E is computed with the block matrix
-        that has the block rows (A, E) and (0, A). The first block row of its exponential contains exp(A) and
-        the derivative.
-
         ZeroDivisionError is raised for the inverse of a singular matrix. The exponential of a matrix raises
-        OverflowError if an argument is not finite, or if an entry of the matrix has an absolute value of 2^40
-        or more.
+        OverflowError (:func:`codegen.ir.matrix_balls.exponential`).
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
-            # ``first`` contains the entries of A. The other numbers are derivatives of A. The result grows
-            # exponentially only with the entries of A, so only these entries are limited.
-            first = numbers[: called.n**2]
-            if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
-                raise OverflowError(
-                    "the exponential of a matrix needs finite entries with absolute values below 2^40"
-                )
-            # Cancellation in the series of the exponential loses up to about 3 * norm bits. The working
-            # precision is therefore increased by 64 + 3 * norm bits, but by at most 64 + 2^13 bits.
-            norm = float(called.n * max(abs(x) for x in first))
-            with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
-                result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
-            return tuple(x.mid() for x in _first_row(result, called.level))
+            return exponential(called.n, called.level, self.bits, numbers)
         if isinstance(called, ExponentialAction):
             # The result is exp(A) y with a matrix A and a vector y. This domain computes the matrix exp(A)
             # first. Emitted code computes exp(A) y without the matrix exp(A).
@@ -177,7 +154,7 @@ class BallDomain:
             with precision(2 * self.bits):
                 # The inversion of an ill-conditioned matrix loses many bits. With twice the number of bits
                 # the inverse is accurate for condition numbers up to about 2^``self.bits``.
-                inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
+                inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
             # A complex 3 x 3 matrix is represented by a real 6 x 6 matrix.
@@ -271,38 +248,3 @@ class BallDomain:
         # For abs(x) <= 1, the quotient has a rounding error of about eps/d and a truncation error of about d.
         # Both errors have the same size for d = sqrt(eps). For larger abs(x), d is proportional to abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
-
-
-def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
-
-    ``numbers`` are the entries of the jet. At level 0 they are the entries of an n x n matrix A. At level 1
-    they are the entries of A and of its derivative E, and the block rows are (A, E) and (0, A).
-    """
-    if level == 0:
-        return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of ``numbers`` is a jet A of level ``level`` - 1. The second half is the derivative of A.
-    half = len(numbers) // 2
-    a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
-    zeros = [arb(0)] * len(a)
-    return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
-
-
-def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of a jet (a matrix with its derivatives) from the rows of its block matrix.
-
-    This is the inverse function of :func:`_block`.
-    """
-    if level == 0:
-        return [x for row in rows for x in row]
-    half = len(rows) // 2
-    # The first block row (A, E) contains all entries of the jet. The second block row is (0, A).
-    a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
-    return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
-
-
-def _exponent(x: arb) -> int:
-    """Return the number e with 2^(e-1) <= abs(x) < 2^e for the midpoint x of a ball, or 0 for x = 0."""
-    # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + int(mantissa).bit_length() if mantissa else 0
