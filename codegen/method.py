@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -323,7 +324,13 @@ def _example(families: Sequence[str]) -> str:
 
 def _library() -> Iterator[Tableau]:
     """Yield the tableaux of the library, loaded one by one."""
-    return (Tableau.load(find(name)) for name in available())
+    return map(_of_library, available())
+
+
+@cache
+def _of_library(name: str) -> Tableau:
+    # Loading all tableaux takes half a second. The search for an example reads them once for each family.
+    return Tableau.load(find(name))
 
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:

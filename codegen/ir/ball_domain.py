@@ -22,6 +22,7 @@ from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.exponential_action import ExponentialAction
+from codegen.ir.matrix_balls import ball, block_matrix, exponent_of, exponential, midpoint
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
@@ -76,18 +77,11 @@ class BallDomain:
             return self.rational(x.numerator, x.denominator)
         if isinstance(x, int | float):
             return arb(x)
-        sign, mantissa, exponent, _ = x._mpf_
-        if not mantissa:
-            # mpmath represents infinities and NaN by a zero mantissa and a non-zero exponent.
-            return arb(0) if not exponent else arb(float(x))
-        return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
+        return ball(x)
 
     def mpf(self, x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
         """Convert a scalar of this domain to an mpmath number of the mpmath context ``context``."""
-        if not x.is_finite():
-            return context.nan
-        mantissa, exponent = x.mid().man_exp()
-        return context.mpf((int(mantissa), int(exponent)))
+        return midpoint(x, context)
 
     def number(self, value: Number) -> arb:
         """Return the number ``value``, rounded to the working precision."""
@@ -97,8 +91,8 @@ class BallDomain:
         with precision(self.bits + 16):
             # ``approximate`` returns a decimal text with b/3 + 5 digits, where b is the number of bits. A
             # number with b bits has only about 0.301 b digits, so the rounding of the text is negligible.
-            ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
-        return ball.mid()
+            enclosure = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
+        return enclosure.mid()
 
     def rational(self, p: int, q: int = 1) -> arb:
         """Return p/q, rounded to the working precision."""
@@ -120,7 +114,7 @@ class BallDomain:
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
-        if any(_exponent(x) > LARGEST_BITS for x in args):
+        if any(exponent_of(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), z)
@@ -137,29 +131,12 @@ class BallDomain:
     def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
         """Return the results of a vector function.
 
-        Let M be the block matrix with the block rows (A, E) and (0, A). The first block row of exp(M)
-        contains exp(A) and the derivative of exp(A) in the direction E.
-
-        ZeroDivisionError is raised for the inverse of a singular matrix. For an exponential, OverflowError is
-        raised if an argument is not finite. OverflowError is also raised if an entry of A has an absolute
-        value of 2^40 or more.
+        ZeroDivisionError is raised for the inverse of a singular matrix. The exponential of a matrix raises
+        OverflowError (:func:`codegen.ir.matrix_balls.exponential`).
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
-            # ``first`` contains the entries of A. The other numbers are derivatives of A. They need no limit,
-            # because the result does not grow exponentially with them.
-            first = numbers[: called.n**2]
-            if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
-                raise OverflowError(
-                    "the exponential of a matrix needs finite entries with absolute values below 2^40"
-                )
-            # Cancellation in the series of exp(A) loses up to about 3 N bits, where N is a bound of the norm
-            # of A. Hence the working precision is increased by 64 + 3 N bits. The increase is limited to
-            # 64 + 2^13 bits.
-            norm = float(called.n * max(abs(x) for x in first))
-            with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
-                result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
-            return tuple(x.mid() for x in _first_row(result, called.level))
+            return exponential(called.n, called.level, self.bits, numbers)
         if isinstance(called, ExponentialAction):
             # The result is exp(A) y with a matrix A and a vector y. Emitted code never forms the matrix
             # exp(A), but this domain does.
@@ -176,7 +153,7 @@ class BallDomain:
             with precision(2 * self.bits):
                 # The inversion of an ill-conditioned matrix loses many bits. With twice the working
                 # precision, the inverse is accurate for condition numbers up to about 2^``self.bits``.
-                inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
+                inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
             # A complex 3 x 3 matrix is represented by a real 6 x 6 matrix.
@@ -272,7 +249,7 @@ class BallDomain:
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 
-def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
+def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """Return the rows of the block matrix of a jet. A jet is a matrix with its derivatives.
 
     ``numbers`` are the entries of the jet. A jet of level 0 is an n x n matrix A. A jet of level 1 consists
@@ -282,7 +259,7 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
     # The two halves of ``numbers`` are jets of level ``level`` - 1: A and its derivative E.
     half = len(numbers) // 2
-    a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
+    a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
     return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
 

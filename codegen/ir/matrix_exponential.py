@@ -21,6 +21,8 @@ from functools import cache
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
+from codegen.ir import matrix_balls
+
 if TYPE_CHECKING:
     from codegen.ir.domain import Scalar
 
@@ -209,37 +211,15 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     return total
 
 
-def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
+def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of the jet ``a``, a matrix of mpmath numbers with its derivatives.
 
-    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if n
-    times the largest absolute value of an entry of the matrix is 2^40 or more.
+    The error is about one rounding unit of ``context`` times the norm of the exponential. OverflowError is
+    raised by :func:`codegen.ir.matrix_balls.exponential`.
     """
-    size = max((abs(x) for x in a[: n * n]), default=0) * n
-    if not size < 2**40:
-        raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
-    # The norm of the scaled matrix is below 2^-8. The norm of each term of the series is therefore less than
-    # 2^-8 times the norm of the previous term.
-    halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation. This number is at most
-    # 0.87 |A|, and ``size`` is a bound of |A|. Each squaring also loses one bit by rounding. The working
-    # precision has additional digits for both losses, but at most 2000 digits for the cancellation. The
-    # precision is set in a copy of the context, so the precision of the caller does not change.
-    work = context.clone()
-    work.dps = digits + 15 + halvings + min(2000, int(float(size)))
-    scale = work.mpf(2) ** -halvings
-    b = [work.mpf(x) * scale for x in a]
-    # The sum begins with the unit matrix, whose derivatives are zero.
-    total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
-    term, k = total, 0
-    # The first matrix of the sum is close to the unit matrix, so terms below ``work.eps`` are negligible.
-    while any(abs(x) > work.eps for x in term):
-        k += 1
-        term = [x / k for x in product(n, level, term, b)]
-        total = [x + y for x, y in zip(total, term, strict=True)]
-    for _ in range(halvings):
-        total = product(n, level, total, total)
-    return tuple(context.mpf(x) for x in total)
+    # Eight additional bits make the error of the exponential much smaller than the rounding unit.
+    result = matrix_balls.exponential(n, level, context.prec + 8, [matrix_balls.ball(x) for x in a])
+    return tuple(matrix_balls.midpoint(x, context) for x in result)
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -98,7 +98,7 @@ class MatrixExponential(VectorFunction):
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exponential in mpmath numbers with about ``digits`` correct digits."""
-        return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
+        return matrix_exponential.in_digits(context, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the exponential of a matrix A of truncated power series, and the derivatives of exp(A).

@@ -1,0 +1,128 @@
+"""The exponential of a matrix with many digits, and its derivatives, computed with Arb balls.
+
+A ball is a midpoint with an error radius. Arb computes an enclosure of the exponential, so the radii of the
+result bound its error. If they are too large, the computation is repeated with a higher precision.
+
+A matrix and its derivatives form a jet (:mod:`codegen.ir.matrix_exponential`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from flint import arb, arb_mat
+
+from orderconds.ring.precision import precision
+
+if TYPE_CHECKING:
+    import mpmath
+
+LARGEST_EXPONENT = 40
+"""The exponential is computed if the absolute values of all entries of the matrix are below 2^40."""
+
+MOST_BITS = 2**16
+"""The largest working precision in bits."""
+
+
+def ball(x: mpmath.mpf) -> arb:
+    """Return a ball with radius zero around an mpmath number."""
+    sign, mantissa, exponent, _ = x._mpf_
+    if not mantissa:
+        # mpmath represents infinities and NaN by a zero mantissa and a non-zero exponent.
+        return arb(0) if not exponent else arb(float(x))
+    return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
+
+
+def midpoint(x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
+    """Return the midpoint of a ball, rounded to the precision of an mpmath context.
+
+    The result is NaN for a ball that is not finite.
+    """
+    if not x.is_finite():
+        return context.nan
+    mantissa, exponent = x.mid().man_exp()
+    return context.mpf((int(mantissa), int(exponent)))
+
+
+def exponent_of(x: arb) -> int:
+    """Return the number e with 2^(e-1) <= abs(x) < 2^e for the midpoint x of a ball, or 0 for x = 0."""
+    # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
+    mantissa, exponent = x.mid().man_exp()
+    return int(exponent) + int(mantissa).bit_length() if mantissa else 0
+
+
+def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb, ...]:
+    """Return the exponential of a jet: the midpoints of balls.
+
+    ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives, as balls
+    with radius zero. The error of each entry of exp(A) is at most 2^-``bits`` times the largest entry of
+    exp(A). The error of a derivative is at most 2^-``bits`` (e + e^2) times this entry, or 2^-``bits`` times
+    the largest entry of the derivative. Here e is the largest absolute value of a derivative of A.
+
+    OverflowError is raised if an entry of ``jet`` is not finite, if an entry of A has an absolute value of
+    2^40 or more, or if the error is too large with :data:`MOST_BITS` bits.
+    """
+    size = n * n
+    if not all(x.is_finite() for x in jet) or any(exponent_of(x) > LARGEST_EXPONENT for x in jet[:size]):
+        raise OverflowError(
+            f"the exponential of a matrix needs finite entries with absolute values below "
+            f"2^{LARGEST_EXPONENT}"
+        )
+    extra = 64
+    while bits + extra <= MOST_BITS:
+        with precision(bits + extra):
+            result = _first_row(arb_mat(block_matrix(n, level, jet)).exp().tolist(), level)
+            if _is_accurate(size, bits, jet, result):
+                return tuple(x.mid() for x in result)
+        extra *= 2
+    raise OverflowError(f"the exponential of a matrix is not accurate with {MOST_BITS} bits")
+
+
+def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]) -> bool:
+    """Return True if the radii of ``result`` satisfy the bounds of :func:`exponential`."""
+    if not all(x.is_finite() for x in result):
+        return False
+    unit, largest = arb((1, -bits)), _largest(result[:size])
+    derivative = _largest(jet[size:])
+    for start in range(0, len(result), size):
+        matrix = result[start : start + size]
+        scale = max(_largest(matrix), largest * (derivative + derivative**2)) if start else largest
+        # The comparison of two numbers with radius zero is exact.
+        if any(x.rad() > (unit * scale).mid() for x in matrix):
+            return False
+    return True
+
+
+def _largest(balls: Iterable[arb]) -> arb:
+    """Return the largest absolute value of a midpoint, or 0 if there are no balls."""
+    return max((abs(x.mid()) for x in balls), default=arb(0))
+
+
+def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
+    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
+
+    ``numbers`` are the entries of the jet. At level 0 they are the entries of an n x n matrix A. At level 1
+    they are the entries of A and of its derivative E, and the block rows are (A, E) and (0, A). The first
+    block row of the exponential contains exp(A) and its derivative.
+    """
+    if level == 0:
+        return [list(numbers[n * i : n * i + n]) for i in range(n)]
+    # The first half of ``numbers`` is a jet A of level ``level`` - 1. The second half is the derivative of A.
+    half = len(numbers) // 2
+    a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
+    zeros = [arb(0)] * len(a)
+    return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
+
+
+def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
+    """Return the entries of a jet from the rows of its block matrix.
+
+    This is the inverse function of :func:`block_matrix`.
+    """
+    if level == 0:
+        return [x for row in rows for x in row]
+    half = len(rows) // 2
+    # The first block row (A, E) contains all entries of the jet. The second block row is (0, A).
+    a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
+    return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
