@@ -247,38 +247,3 @@ class BallDomain:
         # For abs(x) <= 1, the difference quotient has a rounding error of about eps/d. Its truncation error
         # is about d. For d = sqrt(eps) the two errors are equal. For larger abs(x), d is sqrt(eps) abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
-
-
-def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix of a jet. A jet is a matrix with its derivatives.
-
-    ``numbers`` are the entries of the jet. A jet of level 0 is an n x n matrix A. A jet of level 1 consists
-    of A and a derivative E of A. Its block rows are (A, E) and (0, A).
-    """
-    if level == 0:
-        return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The two halves of ``numbers`` are jets of level ``level`` - 1: A and its derivative E.
-    half = len(numbers) // 2
-    a, e = (block_matrix(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
-    zeros = [arb(0)] * len(a)
-    return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
-
-
-def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of a jet (a matrix with its derivatives) from the rows of its block matrix.
-
-    This is the inverse function of :func:`_block`.
-    """
-    if level == 0:
-        return [x for row in rows for x in row]
-    half = len(rows) // 2
-    # The block rows are (A, E) and (0, A). The first row contains all entries of the jet.
-    a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
-    return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
-
-
-def _exponent(x: arb) -> int:
-    """Return the number e with 2^(e-1) <= abs(x) < 2^e for a ball with the midpoint x. For x = 0 return 0."""
-    # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + int(mantissa).bit_length() if mantissa else 0
