@@ -60,8 +60,9 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. The base of
-    a power must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Powers must
+    be squares or cubes of symbols (see :mod:`codegen.kernel.schedule`). A power of another expression, or
+    with an exponent above 3, raises ValueError.
     """
     # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
     # loop.
@@ -70,12 +71,11 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign of a constant is not part of the text. In a sum the sign may become the operator
-                # ``-``. In a product it is printed before the first factor.
+                # The text of a constant has no sign. The sign is stored separately, because a sum may print
+                # the sign as the operator ``-``.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                # For a symbol that is no valid identifier in the target language, ``names`` contains one.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
@@ -89,20 +89,21 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # To save parentheses, ``a * (b * c)`` is printed as ``b * c * a``. The result is the same,
-                # because multiplication in IEEE arithmetic is commutative. A constant ``a`` stays in front.
+                # ``a * (b * c)`` is printed as ``b * c * a``, which needs no parentheses. Multiplication in
+                # IEEE arithmetic is commutative, so the result is the same. A constant factor stays in
+                # front: ``2.0 * (b * c)`` keeps its parentheses.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
                 rendered[node.id] = _product(args[0], "/", args[1])
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
-                    raise ValueError("the printer received a power that the schedule has not rewritten")
+                    raise ValueError("the printer accepts only squares and cubes of symbols")
                 # Results of ``pow`` in different languages may differ in the last bit, so powers are printed
                 # as products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
-                # Arguments are separated by commas, so they need no parentheses.
+                # Commas separate the arguments, so no argument needs parentheses.
                 inner = ", ".join(" ".join(signed(a)) for a in args)
                 rendered[node.id] = Rendering((f"{style.function(node.payload)}({inner})",), ATOM)
     return signed(rendered[root.id])
@@ -131,7 +132,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
 
 
 def _sum(x: Rendering) -> bool:
-    """Return True if x is a sum without a minus sign. The negative of a sum is printed as ``-(a + b)``."""
+    """Return True if ``x`` is a sum or a difference. For ``-(a + b)`` the result is False."""
     return x.precedence == SUM and not x.negative
 
 
@@ -142,5 +143,5 @@ def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
     # A product on the right needs parentheses, because ``a * (b * c)`` and ``a * b * c`` may have different
     # rounding errors.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
-    # The rounding does not depend on the signs. The result has a minus sign if exactly one operand has one.
+    # The signs of the operands do not change the rounding. Two minus signs cancel.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

@@ -39,8 +39,8 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments. If ``self.level`` is below ``level``, the text gets parentheses."""
-        # Equal precedence needs no parentheses here. A caller that wants parentheses for equal precedence
-        # passes ``level + 1``.
+        # If the levels are equal, the text gets no parentheses. A caller that needs parentheses passes
+        # ``level + 1``.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -55,9 +55,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The largest number of characters of a text that is kept on one line: SHORT for an operand, LONG for a
-comparison.
-"""
+"""A text of at most this length stays on one line. SHORT is for operands, LONG for comparisons."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
@@ -67,8 +65,10 @@ def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
 
 
 class Infix(ABC):
-    """Writes terms as text. ``words`` maps the name of an operator to its notation in the target language, if
-    the two differ.
+    """Writes terms as text.
+
+    ``words`` maps the name of an operator to its notation in the target language. An operator that is not in
+    ``words`` is printed as its name.
     """
 
     words: ClassVar[dict[str, str]]
@@ -94,8 +94,8 @@ class Infix(ABC):
         if level in (AND, OR):
             # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
-            # The left operand of ``&&`` needs no parentheses if it also is an operation with ``&&``, as in
-            # ``a && b && c``. The same is true for ``||``.
+            # In ``a && b && c`` the left operand ``a && b`` needs no parentheses. The same is true for
+            # ``a || b || c``.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
         # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
@@ -111,4 +111,4 @@ class Infix(ABC):
 
     @abstractmethod
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation differs between target languages."""
+        """Return the text of a term that is neither a negation nor a binary operation."""

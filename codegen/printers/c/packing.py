@@ -1,4 +1,4 @@
-"""Arguments of function calls in C: a private function with many scalar parameters gets them in an array."""
+"""Packs many scalar arguments of a private C function into one array."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from codegen.run.language import Function
 from codegen.run.terms import Kind, Term
 
 WIDE = 64
-"""The largest number of scalar parameters that a private function receives one by one.
+"""A private function with more scalar parameters than this receives them in one array (see :func:`packed`).
 
 The compile time of gcc 12 grows with the square of the number of arguments on the stack. For example, the
-step of the method ``ambient:verner9_efficient`` for the scene ``wilson_flow`` contains calls with up to 658
-arguments. gcc -O2 compiles this step in 21 s if each argument is passed separately, and in 4 s if arrays are
-passed. For a step with step-size control, the times are 75 s and 7 s. Arrays make the step 1 % slower.
+method ``ambient:verner9_efficient`` for the scene ``wilson_flow`` has calls with up to 658 arguments. With
+separate arguments, gcc -O2 compiles one step of this method in 21 s. With arrays, it needs 4 s. For a step
+with step-size control, the times are 75 s and 7 s. The compiled step with arrays is 1 % slower.
 """
 
 PACKED = "arguments"
@@ -21,12 +21,13 @@ PACKED = "arguments"
 
 
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
-    """Return the parameters that a function receives in one array, or an empty tuple.
+    """Return the scalar parameters that a function receives in one array.
 
-    ``changed`` contains the names of the parameters that the function changes. The array contains only
-    parameters that the function does not change.
+    The result is empty if all parameters are passed separately. ``changed`` contains the names of the
+    parameters that the function changes. These parameters are not in the array.
     """
-    # The parameters of a public function are documented, and its callers pass each one separately.
+    # Users pass each argument of a public function separately. A call with an array is printed without an
+    # assignment, so functions that return a value are excluded.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]
@@ -36,11 +37,11 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 
 
 def whole(values: Sequence[str], others: Collection[str]) -> str:
-    """Return the name of the array whose first entries are ``values``, or an empty text if there is none.
+    """Return the name of the array whose first entries are ``values``.
 
-    A function call can pass this array, so the values need not be copied into a new array. ``others`` are the
-    arguments of the call that are not in ``values``. The called function may change them, so the result is
-    never one of ``others``.
+    A call can pass this array instead of a copy of the values. ``others`` contains the remaining arguments of
+    the call. The called function may change arrays in ``others``, so the result is none of them. Without a
+    suitable array, the result is an empty text.
 
     >>> whole(("v[0]", "v[1]"), ["w"])
     'v'

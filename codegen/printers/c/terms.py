@@ -40,7 +40,7 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
     """Return the conventions of C for constants and function names, such as ``0.5f`` and ``sqrtf``.
 
     Names of functions outside the mathematical library start with ``prefix``. ``forms`` maps the name of a
-    function to the name of the variant that the module calls, such as a variant without branches.
+    function to the name of the variant that is called. For example, a variant may have no branches.
     """
 
     def called(name: str) -> str:
@@ -83,15 +83,15 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The negation of ``a < b`` is printed as ``!(a < b)``, because ``a >= b`` is different if ``a`` is a
-        # NaN. Then ``!(a < b)`` is true, but ``a >= b`` is false.
+        # The negation of ``a < b`` is printed as ``!(a < b)``. The text ``a >= b`` would be wrong for NaNs:
+        # if ``a`` or ``b`` is a NaN, both ``a < b`` and ``a >= b`` are false.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the texts of two tests. All values are finite if and only if at least one test is true."""
-        # The first test, isfinite of the sum of all values, is fast. It is false if the sum of finite values
-        # overflows. The second test adds the terms x - x, so no finite value causes an overflow.
+        # The first test checks whether the sum of all values is finite. This test is fast, but a sum of
+        # finite values may overflow. The second test adds the differences x - x, so it has no overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # x - x is 0 for a finite x, and NaN for an infinity or a NaN.
         differences = paired([x - x for x in values])
@@ -99,7 +99,7 @@ class Terms(Infix):
         return finite, (*self.text(differences).segments, f"== {zero}")
 
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation differs between target languages."""
+        """Return the text of a term that is neither a negation nor a binary operation."""
         match term.op:
             case "name":
                 return Text((self.name(term),))
@@ -107,7 +107,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The precedence of the printed expression is not known here. SUM is the weakest possible one.
+                # The expression may be a sum, so SUM is the safe choice of the precedence.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -124,8 +124,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # Run-time inputs that are constant in time are passed as two arguments: the emitted function
-                # ``hold``, and a pointer to the values.
+                # Run-time inputs are passed as a function and a pointer to its data. For constant inputs, the
+                # emitted function ``hold`` copies the values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -135,8 +135,8 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. The name of a function that the user supplies gives two arguments."""
-        # C has no closures, so each function that the user supplies is passed with a pointer to its data.
+        """Return the text of a name. A function that the user supplies is printed as two arguments."""
+        # C has no closures, so the second argument is a pointer to the data of the function.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -168,8 +168,8 @@ class Terms(Infix):
         # A cell is an array with one entry. In C it is a pointer ``p``, and the entry is printed as ``*p``.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        # An array with the shape (0, n) has rows of length n. The number of rows is not known. C code stores
-        # the rows one after the other in an array with one index.
+        # The shape (0, n) means that the number of rows is known only at run time. Each row has n entries.
+        # C code stores the rows one after the other in an array with one index.
         if base.shape[0] == 0 and len(base.shape) > 1:
             # Row 0 begins at the address of the array, so no offset is printed.
             if _is_zero(term.args[1]):
@@ -198,7 +198,7 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the text of a test that is true if all values are finite."""
         first = values[0]
-        # For an array, a helper with a loop is called, because an expression would be long.
+        # For an array, the emitted code calls a helper function, which tests the entries in a loop.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
@@ -207,7 +207,7 @@ class Terms(Infix):
         return Text((*finite, *closed("|| ", exact, "")), OR)
 
     def called(self, term: Term) -> Text:
-        """Return the text of a call of a library function."""
+        """Return the text of a function call."""
         if term.text == "greatest":
             return Text(greatest([self.line(x) for x in term.args], f"{self.prefix}greater"))
         if term.text == "largest":

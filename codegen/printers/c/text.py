@@ -28,7 +28,7 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
-    """Return the text of a function call as segments, one for each argument.
+    """Return the text of a function call as segments. A line may break between two segments.
 
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
@@ -39,8 +39,8 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
-    # ``/*`` is replaced by ``/ *``, because compilers warn about ``/*`` inside a comment.
+    """Return the text for a C comment. ``*/`` is replaced by ``* /``, and ``/*`` by ``/ *``."""
+    # Compilers warn about ``/*`` inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
@@ -70,7 +70,7 @@ def fill(
     for position, segment in enumerate(segments):
         # The last segment and ``end`` are on the same line, so the line must have space for both.
         tail = end if position == len(segments) - 1 else ""
-        # The caller indents the lines later. A margin of 8 characters is left for this.
+        # The caller indents the lines later, so 8 characters of the width stay free.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
             lines.append(f"    {segment}{tail}")
         else:
@@ -88,7 +88,7 @@ def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
     """
     lines: list[str] = []
     for statement in statements:
-        # The caller indents the lines later. A margin of 8 characters is left for this.
+        # The caller indents the lines later, so 8 characters of the width stay free.
         if lines and len(lines[-1]) + 1 + len(statement) <= width - 8:
             lines[-1] += f" {statement}"
         else:
