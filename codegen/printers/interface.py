@@ -1,4 +1,4 @@
-"""The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
+"""The calling convention of an emitted module: prefix, arguments, state size and implicit equations.
 
 The header of an emitted module describes the convention for users. The loader of emitted modules reads the
 convention from the manifest of the module.
@@ -30,7 +30,7 @@ RUN = ("integrated", "controlled", "events", "dense")
 class Interface:
     """The calling convention of one module.
 
-    - ``prefix`` starts every external C name and ends in an underscore.
+    - ``prefix`` is the first part of every external C name, with an underscore at the end.
     - ``size`` is the number of coordinates of a state.
     - ``time`` is True if the step reads t.
     - ``parameters`` are the run-time parameters in the order of the arguments.
@@ -47,9 +47,9 @@ class Interface:
     - ``events`` is the number of event functions of runs to a given end time.
     - ``dense`` is the order of the continuous extension, or 0 if there is none.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
-    - ``workspace`` is the number of rows of the workspace. This is an array for intermediate values on a
-      lattice, with one column for each site.
-    - ``modes`` is True for a step on Fourier modes, whose state is an array of any length.
+    - ``workspace`` is the number of rows of the workspace. The workspace is an array for intermediate
+      values on a lattice.
+    - ``modes`` is True for a step on Fourier modes. The state is then an array of any length.
     """
 
     prefix: str
@@ -72,7 +72,7 @@ class Interface:
     modes: bool = False
 
     def workspace_of(self, sites: int) -> int:
-        """Return the length of the workspace of a lattice with this number of sites."""
+        """Return the number of entries in the workspace of a lattice with ``sites`` sites."""
         return self.workspace * padded(sites)
 
     @classmethod
@@ -126,17 +126,17 @@ class Interface:
 
     def as_json(self) -> dict[str, Any]:
         """Return the interface as plain data for the manifest. :meth:`from_json` reads these data."""
-        # JSON has no tuples. Lists replace the tuples, so that the result is equal to data from a JSON file.
+        # JSON has no tuples, so tuples become lists.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # The fields for runs to a given end time are omitted if the module has no such runs. The fields for
-        # lattices and for Fourier modes are omitted in the same way.
+        # The fields of three features are omitted if the module does not have the feature. These features are
+        # runs to a given end time, lattices and Fourier modes.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
-        """Return the interface that is described by data from :meth:`as_json`."""
+        """Return the interface that :meth:`as_json` converted to ``data``."""
         # JSON has no tuples, so lists become tuples. A missing list becomes an empty tuple.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 

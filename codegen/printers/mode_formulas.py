@@ -38,7 +38,7 @@ class ModeFormulas:
     reserved: Collection[str]
 
     def lines(self, kernel: Kernel, **more: str) -> Lines:
-        """Return the text of a kernel. The keyword arguments ``more`` are added to ``names``."""
+        """Return the formulas of a kernel as text. ``more`` maps further symbols to identifiers."""
         arranged = arrange(kernel)
         names = {**self.names, **more}
         taken = {*self.reserved, *names.values()}
@@ -51,7 +51,7 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # The outputs may contain the new names of variables, so ``names`` must be complete at this point.
+        # The outputs may contain variables of the assignments. Now ``names`` contains all these variables.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
@@ -66,9 +66,9 @@ class ModeFormulas:
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the formula for a coefficient of the step at one mode.
+        """Return the formula for a coefficient of the step at one Fourier mode.
 
-        In the formula, ``f0``, ``f1``, ... are the values of functions such as exp(z) (``step.factors``).
+        The variables ``f0``, ``f1``, ... contain the values of the functions in ``step.factors``.
         """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
@@ -84,16 +84,16 @@ class ModeFormulas:
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
-        # The old state is multiplied by a coefficient without the factor h.
+        # The coefficient of the old state has no factor h.
         if not table.power:
             return inner
-        # The values of the nonlinear part are multiplied by coefficients with the factor h.
+        # The coefficients of the nonlinear part have the factor h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the variable that ``term`` multiplies by its coefficient.
+        """Return the name of the array in ``term``.
 
-        The variable contains the Fourier coefficients of the old state, or of a value of the nonlinear part.
+        The array contains Fourier coefficients, either of the old state or of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 

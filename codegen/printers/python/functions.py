@@ -1,9 +1,11 @@
 """Prints functions (:mod:`codegen.run.language`) in Python.
 
 The printed functions change lists in place and return status codes. One assignment to several consecutive
-entries of a list is faster than an assignment to each entry, so the printer combines such assignments. Python
-raises an arithmetic error where C computes an infinity or a NaN. Some functions have a guard, a ``try``
-statement that converts the error to a status code or to NaNs.
+entries of a list is faster than an assignment to each entry. Therefore the printer combines assignments to
+consecutive entries.
+
+Python raises an arithmetic error where C computes an infinity or a NaN. Therefore some functions have a
+guard. The guard is a ``try`` statement that converts the error to a status code or to NaNs.
 """
 
 from __future__ import annotations
@@ -36,15 +38,13 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""The smallest length of a group of assignments that is printed as one statement. The assignments of a group
-read or write consecutive entries of one list.
+"""If a group has at least this number of assignments, one statement replaces the group. The assignments of a
+group read or write consecutive entries of one list.
 """
 
 
 class FunctionPrinter:
-    """Writes the functions of one module in Python. ``unit`` contains all records, tables and functions of
-    the module.
-    """
+    """Prints functions as Python code. ``unit`` contains all records, tables and functions of the module."""
 
     def __init__(self, unit: Unit, identifiers: dict[str, Identifiers], constants: Constants) -> None:
         self.unit, self.identifiers, self.constants = unit, identifiers, constants
@@ -57,7 +57,7 @@ class FunctionPrinter:
         # Triple quotes in the text would end the docstring. A backslash would start an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
-        # With a guard, the body is inside a ``try`` statement.
+        # A guard is a ``try`` statement that contains the body.
         depth = 2 if function.guard else 1
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
@@ -67,12 +67,12 @@ class FunctionPrinter:
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
-        """Return the body of the ``except`` clause of a function that has a guard."""
+        """Return the body of the ``except`` clause for the guard of ``function``."""
         if function.guard == RAISES_STATUS:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
-        # The guard is RAISES_NAN. A function that has this guard and no return value changes exactly one
+        # Here the guard is RAISES_NAN, and the function has no return value. The function changes exactly one
         # array.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
@@ -90,18 +90,19 @@ class FunctionPrinter:
         return [*lines, ")"]
 
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
-        """Return the text of a list of zeros or new records. The dimensions of the list are ``shape``.
+        """Return the code that creates a list of zeros or a list of new records.
 
-        If ``shape`` is empty, the result is the text of one zero or one new record.
+        ``shape`` contains the dimensions of the list. If ``shape`` is empty, the code creates one zero or one
+        new record.
         """
         if not shape:
             if kind is Kind.RECORD:
-                # The caller puts this text into a list comprehension, so each entry is a new record.
+                # A list comprehension evaluates this code once for each entry, so each entry is a new record.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # ``[[0.0] * n] * m`` would contain the same row m times.
+            # The operator ``*`` would repeat the same row or record. A comprehension creates new ones.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -154,8 +155,7 @@ class _Body:
         lines: list[str] = []
         place = 0
         while place < len(body):
-            # In CPython, unpacking a list or assigning a slice is faster than a subscript for each
-            # entry.
+            # In CPython, one combined assignment is faster than one assignment for each entry.
             group = self.entries(body[place:])
             if len(group) >= TOGETHER:
                 lines += self.together(group, depth)
@@ -166,9 +166,9 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the group of assignments at the beginning of ``body`` that one statement can replace.
+        """Return the assignments at the beginning of ``body`` that form a group.
 
-        These assignments read or write consecutive entries of one list.
+        The assignments of a group read or write consecutive entries of one list.
         """
         group: list[Assign] = []
         for statement in body:
@@ -200,20 +200,20 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # ``statement`` must use the same list as the first statement of the group.
+        # All statements of a group must read or write the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # One statement computes all values before it writes the first entry. The result would be wrong if a
-        # value depended on an entry that an earlier assignment writes.
+        # A slice assignment computes all values before it changes the list. Therefore no value may depend on
+        # the list.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines of one statement that replaces the statements of ``group``."""
+        """Return the lines of the assignment that replaces the assignments of ``group``."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
-        # If all entries of a list are read, no slice is printed, because a slice would copy the list.
+        # If the group reads a whole list, the list is printed without a slice. A slice would copy the list.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -250,8 +250,7 @@ class _Body:
         """Yield the lines of a branch."""
         yield from self.condition(word, statement.test, depth)
         yield from self.block(statement.body, depth + 1)
-        # If the else part consists of a single branch, it is printed as ``elif``, which avoids nested
-        # indentation.
+        # If the else part is a single branch, ``elif`` avoids a deeper indentation.
         orelse = statement.orelse
         if len(orelse) == 1 and isinstance(orelse[0], If):
             yield from self.branch(orelse[0], depth, "elif")
@@ -260,7 +259,7 @@ class _Body:
             yield from self.block(orelse, depth + 1)
 
     def condition(self, word: str, test: Term, depth: int) -> list[str]:
-        """Return the lines of ``if``, ``elif`` or ``while`` with its test, up to the colon."""
+        """Return the lines of ``word`` (``if``, ``elif`` or ``while``), the test and the colon."""
         lines = indented(f"{word} ", self.terms.text(test).segments, depth)
         return [*lines[:-1], f"{lines[-1]}:"]
 
@@ -270,7 +269,7 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
-        # Python has no loop with a test at the end. An endless loop with a ``break`` replaces it.
+        # Python has no loop with a test at the end. The printer writes an endless loop with a ``break``.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
@@ -285,13 +284,12 @@ class _Body:
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
-            # A slice assignment changes the caller's list, but a plain assignment would only rebind the local
-            # name.
+            # A slice assignment changes the caller's list. A plain assignment would not change this list.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # ``x = x - y`` is printed as ``x -= y``. There is no such short form of ``x = y - x``.
+        # ``x = x - y`` is printed as ``x -= y``. Python has no short form for ``x = y - x``.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -311,11 +309,10 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
-        # The helpers in the template have the names ``_sampled`` and ``_measured``.
+        # The template defines ``_sampled`` and ``_measured`` for ``sample`` and ``measure``.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # The library helper ``invert`` has no underscore. The names of all other called functions start
-        # with an underscore.
+        # The names of called functions start with an underscore. The helper ``invert`` is an exception.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 

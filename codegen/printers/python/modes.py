@@ -24,7 +24,7 @@ _OWN = """
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
-"""Names that are not available for symbols of the scene. The emitted module uses these names itself."""
+"""Names that the emitted module itself uses. Symbols of the scene get different names."""
 
 
 def _constant(value: Number) -> str:
@@ -38,7 +38,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     """Return the emitted Python module, as a map from the name of its file to its text."""
     step = kernel.modes
     assert step is not None
-    # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of the
+    # The template uses the variables f0, f1, ... for factors. It uses value1, value2, ... for values of the
     # nonlinear part N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
@@ -69,7 +69,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "functions": _functions(step),
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
-        # A derivative of order 0 is the function itself, which needs no differentiation.
+        # The derivative of order 0 is the function itself. It needs no differentiation.
         "orders": sorted({*step.nonlinearity.outer, *(m for m, _ in step.nonlinearity.inner)} - {0}),
         "kept": step.nonlinearity.kept,
         "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],
@@ -96,7 +96,7 @@ def _sum(write: ModeFormulas, terms: tuple[Term, ...]) -> str:
     for term in terms:
         name = write.spectrum(term)
         words.append(name if term.table is None else f"tables[{term.table}] * {name}")
-    # An empty sum is a spectrum of zeros, which has the shape of the state.
+    # An empty sum is zero. The array of zeros has the shape of the state.
     return " + ".join(words) or "np.zeros_like(spectrum)"
 
 

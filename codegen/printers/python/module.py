@@ -1,7 +1,7 @@
 """Prints one step as a Python module.
 
 The module has the functions ``step`` and ``run``, and an exception for failures. The docstring of the module
-describes the method, its properties and its use.
+describes the method and the use of the module.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The records, tables and functions of the module, without the function ``step``."""
+        """The records, tables and private functions of the module."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
         # The function ``step`` is omitted here, because the template contains a public function ``step`` that
         # calls ``run``.
@@ -65,7 +65,7 @@ class _Module:
 
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
-        """The identifiers in each function, by the name of the function."""
+        """A map from the name of each function to the identifiers in this function."""
         # The printer puts an underscore before the name of each function. Variables must not have the
         # resulting names.
         underscored = {f"_{f.name}" for f in self.unit.functions}
@@ -76,7 +76,7 @@ class _Module:
     @cached_property
     def constants(self) -> Constants:
         """The floating-point constants of the module."""
-        # Names of constants must differ from the identifiers of every function, because constants are global.
+        # Constants are global. A local variable with the name of a constant would hide the constant.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
@@ -99,7 +99,7 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The library functions that the module calls, by their names in :mod:`codegen.run.terms`."""
+        """The library functions that the module calls, with the names of :mod:`codegen.run.terms`."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
         # The terms ``finite`` and ``infinity`` are not calls, but their text also needs imported names.
         names = {t.text for t in functions if t.op == "call"}
@@ -110,31 +110,29 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The names of the library functions that the module needs, and the source texts of the helper
-        functions that it needs.
-        """
+        """The names of library functions and the source texts of helper functions that the module needs."""
         wanted = {*functions_of(self.unit)}
-        # ``functions_of`` searches only kernel expressions and call statements. Other code, such as step
-        # control, may also call ``power`` and ``sqrt``.
+        # Other code, such as step control, may call ``power`` and ``sqrt``. The function ``functions_of``
+        # does not find these calls.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Only names that are used are imported, because linters report unused imports.
+        # Linters report unused imports, so the module imports only the names that it uses.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers needs ``inf``, because a negative power of zero is infinite.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
-        # NumPy's functions keep float32, but functions of ``math`` return doubles.
+        # For a float32 argument, NumPy's functions return float32. The functions of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
-        # The template prints the public records, so they are omitted here.
+        # The template prints the public records. The private records are printed here.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         # The text of the helper functions precedes the tables and the functions of the module.
         definitions += [[text] for text in self.needed.texts]
@@ -142,9 +140,9 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters as they are printed in the argument list of a public function.
+        """Return the run-time parameters for the argument list of a public function.
 
-        If the scene gives the values of all parameters, the arguments have these values as defaults.
+        If the scene gives the values of all parameters, these values are the defaults.
         """
         known = self.recipe.defaults
         # If only some parameters had defaults, a parameter without a default could follow one with a default.
@@ -165,7 +163,7 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        # This call also collects the constants, so it precedes the use of ``self.constants.digits``.
+        # This call collects the constants. ``self.constants.digits`` is complete only after the call.
         parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {
@@ -186,7 +184,7 @@ class _Module:
             "inputs": interface.inputs,
             "floats": [*time, "h", *self.parameters],
             "step": ", ".join(["state", *time, "h", *inputs, *given, *keywords(optional)]),
-            # The arguments with which ``step`` calls ``run`` for a single step.
+            # The function ``step`` calls ``run`` with these arguments.
             "once": ", ".join(["state", *time, "h", "1", *held, *self.parameters, *passed]),
             "run": ", ".join(
                 ["state", *time, "h", "steps", *inputs, *given, *keywords(["stride=0", *optional])]
