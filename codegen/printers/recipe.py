@@ -1,5 +1,6 @@
-"""The recipe: the text at the beginning of an emitted file. It states the origin, the properties and the use
-of the file.
+"""The recipe: the text at the beginning of an emitted file.
+
+The text describes the origin and the properties of the file, and shows an example of its use.
 """
 
 from __future__ import annotations
@@ -39,37 +40,35 @@ LONGEST_STATE = 64
 """The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
-"""The largest number of coordinates that the usage example sets one by one.
+"""The largest number of nonzero coordinates that the usage example sets one by one.
 
-This limit is for states with more than :data:`LONGEST_STATE` coordinates. The example sets their nonzero
-coordinates only.
+If a state has more than :data:`LONGEST_STATE` coordinates, the example sets only the nonzero coordinates.
 """
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The comment in the usage example if the initial state has too many nonzero coordinates to set them."""
+"""The comment in the usage example for a long state with too many nonzero coordinates."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of a long initial state.
 
-    A state is long if it has more than :data:`LONGEST_STATE` coordinates. For any other state the result is
-    None, and the usage example contains all entries. If more than :data:`MOST_ENTRIES` entries of a long
-    state are not zero, the result is empty, and the example refers to the manifest.
+    A state is long if it has more than :data:`LONGEST_STATE` coordinates. For other states the result is
+    None. If a long state has more than :data:`MOST_ENTRIES` nonzero entries, the result is empty.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))
     """
     if len(initial) <= LONGEST_STATE:
         return None
-    # The usage example creates a state of zeros, and assigns the nonzero entries.
+    # The usage example sets all coordinates to zero. Then it assigns the nonzero entries.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
-    # Many assignments would make the usage example long, so it refers to the manifest instead.
+    # Instead of many assignments, the usage example contains the comment IN_MANIFEST.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 
 def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
-    """Return the lines of one header entry. The word is on the left, and the sentences are on its right."""
+    """Return the lines of one header entry. The word is in the left column, the sentences in the right."""
     indent = " " * 12
     lines: list[str] = []
     for number, sentence in enumerate(sentences):
@@ -98,8 +97,8 @@ def header(
     """Return the lines of the header, without the usage example.
 
     ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
-    run-time inputs. ``stack`` states a bound on the stack memory of a call. Lines have at most ``width``
-    characters, but long words are not broken.
+    run-time inputs. ``stack`` is a sentence with a bound on the stack memory of a call. A line has at most
+    ``width`` characters, unless a single word is too long.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -109,7 +108,7 @@ def header(
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)
     lines += entry("state", layout, width)
-    # ``entry`` returns no lines for an empty list, so ``inputs`` and ``left_out`` may be empty.
+    # If ``inputs`` or ``left_out`` is empty, the header has no such entry.
     lines += entry("inputs", inputs, width)
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)

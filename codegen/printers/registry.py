@@ -1,8 +1,8 @@
 """The targets (languages) of the compiler.
 
-A built-in target is a package in the folder of this file. It has a module ``target.py`` and an entry in
-:data:`BUILT_IN`. A package outside orderconds adds a target in one of two ways: it calls :func:`register`, or
-it declares an entry point in the group ``orderconds.targets``.
+The folder of this file contains a package for each built-in target, with a module ``target.py``. The tuple
+:data:`BUILT_IN` lists these targets. A package outside orderconds adds a target in one of two ways: the
+package calls :func:`register`, or it declares an entry point in the group ``orderconds.targets``.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from codegen.printers.target import Target
 from orderconds.errors import InputError, UnknownName
 
 BUILT_IN = ("codegen.printers.c.target:TARGET", "codegen.printers.python.target:TARGET")
-"""The targets of this package, as ``module:variable``."""
+"""The built-in targets. Each text has the form ``module:variable``."""
 
 DEFAULT = "c"
-"""The name of the target that is used if the user names no target."""
+"""The name of the default target."""
 
 GROUP = "orderconds.targets"
 """The entry-point group in which other packages declare targets."""
@@ -27,13 +27,13 @@ _registered: dict[str, Target] = {}
 
 
 def register(new: Target) -> Target:
-    """Add a target to the targets that commands accept, and return it.
+    """Make the target ``new`` available in commands, and return ``new``.
 
     InputError is raised if another target has this name.
     """
-    # The new name must also differ from the names of built-in targets and of targets from entry points.
+    # ``targets()`` contains built-in targets, targets from entry points and registered targets.
     known = {each.name: each for each in targets()}
-    # A target may be registered twice, if both objects are equal.
+    # An equal target with this name causes no error.
     if known.get(new.name, new) != new:
         raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
@@ -41,7 +41,7 @@ def register(new: Target) -> Target:
 
 
 def unregister(name: str) -> None:
-    """Remove a target that was added by :func:`register`. Unknown names have no effect."""
+    """Remove a target that was added by :func:`register`. If there is no such target, nothing happens."""
     _registered.pop(name, None)
 
 
@@ -54,8 +54,7 @@ def targets() -> tuple[Target, ...]:
 
 @cache
 def _built_in() -> tuple[Target, ...]:
-    # The built-in targets are cached, because finding them imports modules. Registered targets are not
-    # cached, because they may change.
+    # The result is cached, because this function imports modules.
     return tuple(map(resolve_name, BUILT_IN))
 
 

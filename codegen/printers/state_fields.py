@@ -7,7 +7,7 @@ from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state. The line contains the indices, the name and the meaning."""
+    """Return a line for each field of the state, with the indices, name and meaning of the field."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -20,13 +20,12 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line that contains the names of the run-time inputs and the times at which they are evaluated.
+    """Return one line with the names of the run-time inputs and their evaluation times.
 
-    The tuple is empty if there are no inputs.
+    If there are no inputs, the tuple is empty.
     """
     if not kernel.inputs:
         return ()
-    # The header is for the author of the scene, so it uses the names in the scene. Emitted code may use
-    # different identifiers.
+    # The line contains the names from the scene. The emitted code may use different identifiers.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, evaluated at {read}",)

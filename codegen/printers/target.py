@@ -1,4 +1,4 @@
-"""A target of the compiler: a language, with the functions that print and load emitted modules."""
+"""Describes a target language of the compiler, and the functions that print and load emitted modules."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 class Target:
     """A target language.
 
-    A function is given as a text ``module:function``, and is imported when it is used.
+    Each function is given as a text ``module:function``. The function is imported when it is used.
 
     - ``name`` is the name of the target in commands.
     - ``title`` is the name of the target in headings.
@@ -43,12 +43,12 @@ class Target:
 
     The other fields are optional:
 
-    - ``compiler`` is a function that compiles the files of a module. It does not use the cache of compiled
-      modules, and returns the elapsed time in seconds.
+    - ``compiler`` is a function that compiles the files of a module, without the cache of compiled modules.
+      It returns the elapsed time in seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression that matches the bound on the stack in the file of the step. The first
-      group of the match is this bound in bytes.
+    - ``stack`` is a regular expression. In the file of the step, its first group matches the bound on the
+      stack memory in bytes.
     - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.
@@ -71,8 +71,7 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # A list of the targets must not import printers and templates. The import takes place only when this
-        # property is read.
+        # The printer is imported only here, because a list of the targets does not need printers.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property
@@ -113,6 +112,6 @@ class Target:
         return cast("Solutions", resolve_name(self.observer))
 
     def step_file(self, module: str) -> str:
-        """Return the name of the file that contains the step of a module."""
+        """Return the name of the file with the step function. ``module`` is the name of the module."""
         # A module may consist of several files, such as a header and a source in C.
         return f"{module}{self.suffix}"

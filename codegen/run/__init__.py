@@ -1,2 +1,2 @@
-"""This package builds the emitted code around the arithmetic of a step: solvers, warm start, continuation,
-step control and trajectories."""
+"""This package adds solvers, warm start, continuation, step control and trajectories to the arithmetic of a
+step."""

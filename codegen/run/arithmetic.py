@@ -27,8 +27,8 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # ``last`` is the index of the last loop. After this loop all unknowns have their final values, so
-    # ``after_loops`` is inserted there. Without loops, ``last`` is -1, and nothing is inserted.
+    # ``last`` is the index of the last loop, or -1 if there is no loop. After the last loop, all unknowns
+    # have their final values.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -42,9 +42,9 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that assign entry i of an array to the variable ``symbols[i]``.
+    """Return the statements that assign entry i of ``array`` to the variable ``symbols[i]``.
 
-    A symbol gets a value only if it is in ``read``.
+    Symbols that are not in ``read`` are omitted.
     """
     # A variable that is never read would cause a warning of the C compiler.
     wanted = frozenset(read)
@@ -52,19 +52,18 @@ def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Sta
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return two lists: the statements that compute the outputs, and the variables with the outputs.
+    """Return the statements that compute the outputs, and the variables that contain the outputs.
 
-    Output k is the new value of the component ``symbols[k]``.
+    Output k is the new value of ``symbols[k]``.
     """
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # A local variable of the kernel is returned as it is. All other outputs are assigned to new
-        # variables.
+        # If an output is a local variable of the kernel, no new variable is needed.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # The variable ``symbol`` must keep its old value, because the formulas of later outputs may read it.
+        # The old value of ``symbol`` is kept, because the formulas of other outputs may read it.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -81,7 +80,7 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     The sample times of a method are, for example, t and t + h/2.
     """
     sequence: list[Statement] = []
-    # These statements come before the first loop, so the inputs are not computed again in each sweep.
+    # Inputs do not depend on the unknowns, so they are evaluated before the first loop.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -94,8 +93,8 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return the emitted function for an outlined part of a kernel.
 
-    An outlined part consists of formulas that are computed in a function of their own.
-    A single result is returned as a value. Several results are written to an array argument.
+    An outlined part is a group of formulas with a separate function. The function returns a single result as
+    a value. It writes several results to an array argument.
     """
     body: list[Statement] = []
     for statement in arrangement.statements:
@@ -113,14 +112,15 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
 
 
 def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
-    """Return a function that evaluates the kernel of ``plan`` at a state and writes its outputs to an array.
+    """Return an emitted function that evaluates the kernel of ``plan`` at a state.
 
-    ``name`` and ``about`` are the name and the comment of the function. ``result`` is the array.
+    The function writes the outputs of the kernel to the array ``result``. ``name`` and ``about`` are the name
+    and the comment of the function.
     """
     arrangement = plan.arrangement
     state = plan.state()
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function does not test its result for NaNs. The functions that call it test the state later.
+    # The emitted function does not test ``result`` for NaNs. Other emitted functions test the state.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

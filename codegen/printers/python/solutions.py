@@ -1,4 +1,4 @@
-"""Observe the solved unknowns of an implicit step while an emitted Python module makes this step."""
+"""Makes one implicit step with an emitted Python module, and returns the solved unknowns."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ class LoadedModule(Protocol):
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
-    """Make one step and return a list for each substep: the values of the unknowns that it has solved.
+    """Make one step. For each substep, return the list of the solved unknowns.
 
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
-    # Each substep calls the emitted function ``_remember`` once, with all unknowns that it has solved.
+    # Each substep calls the emitted function ``_remember`` once. The second argument contains the unknowns.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
-    # The module looks up its global name ``_remember`` at each call. While this name refers to ``observe``,
-    # the module calls ``observe``.
+    # The module looks up the global name ``_remember`` at each call. During this step, the name refers to
+    # ``observe``.
     vars(module)["_remember"] = observe
     try:
         integrator.run(list(state), h, 1, t)
     finally:
         vars(module)["_remember"] = remember
-    # A dictionary keeps the order in which keys were added, so the lists have the order of the substeps.
+    # A dictionary keeps the order of insertion, which is the order of the substeps.
     return list(solved.values())

@@ -7,7 +7,7 @@ from codegen.printers.target import Target
 TARGET = Target(
     name="python",
     title="Python",
-    about="a Python module; it needs NumPy only in single precision and for semilinear equations",
+    about="a Python module; it needs NumPy only for single precision or semilinear equations",
     printer="codegen.printers.python.module:print_module",
     loader="codegen.loader:load_interpreted",
     suffix=".py",

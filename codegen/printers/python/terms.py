@@ -1,8 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
-In double precision, a real constant is printed as a literal. In single precision, it is printed as a name
-such as ``C1``, which refers to a float32 object of NumPy. A literal would be a Python float, and the product
-of a float32 and a Python float may be a double.
+In double precision, a real constant is printed as a literal. In single precision, a name such as ``C1`` is
+printed. The name refers to a float32 object of NumPy. A literal would be a Python float. The product of a
+float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.run.terms import Kind, Term
 class Constants:
     """The constants of a module.
 
-    In single precision, ``digits`` maps the name of each constant to its value as text, such as ``C1`` to
-    ``0.5``.
+    In single precision, ``digits`` maps the name of each constant to the text of its value. For example, it
+    maps ``C1`` to ``0.5``.
     """
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
@@ -36,18 +36,18 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number.
 
-        In double precision the text is a literal. In single precision it is the name of a constant of the
-        module, after a minus sign if the number is negative.
+        In double precision the text is a literal. In single precision it is the name of a constant. If the
+        number is negative, a minus sign precedes the name.
         """
         text = self.precision.text(x)
-        # In double precision no names are needed: Python reads a literal faster than a global name.
+        # In double precision a literal is used, because Python reads it faster than a global name.
         if self.precision is DOUBLE:
             return text
-        # Negation causes no rounding error, so a number and its negative share one constant.
+        # A number and its negative share one constant, because a change of sign is exact.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
-            # Skip a name if the scene already uses it: a parameter may have the name C1.
+            # Skip the names that are in use. For example, a parameter of the scene may have the name C1.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -68,12 +68,12 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The negation of ``a < b`` is printed as ``not a < b``. The text ``a >= b`` would be wrong for NaNs:
-        # if ``a`` or ``b`` is a NaN, both ``a < b`` and ``a >= b`` are false.
+        # The negation of ``a < b`` is printed as ``not a < b``. If ``a`` or ``b`` is a NaN,
+        # this expression is true, but ``a >= b`` is false.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
-        """Return the text of a term that is neither a negation nor an operation with a binary operator."""
+        """Return the text of a term other than a negation or a binary operation."""
         match term.op:
             case "name":
                 return Text((self.identifiers.of(term),))
@@ -81,8 +81,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The kernel expression may be a sum. With the precedence of a sum, it gets parentheses where
-                # a sum needs them.
+                # The expression may be a sum, so its text has the precedence of a sum.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.constants.style), SUM)
             case "status":
                 return Text((term.text,))
@@ -99,7 +98,7 @@ class Terms(Infix):
                 return Text(self.called(term))
             case "finite":
                 first = term.args[0]
-                # The loops of ``all`` and ``map`` are implemented in C, so they are faster than byte code.
+                # ``all`` and ``map`` are faster than a ``for`` statement, because they are implemented in C.
                 listed = self.line(first) if first.shape else self.tuple_of(term.args)
                 return Text((f"all(map(isfinite, {listed}))",))
             case "wide" | "narrow":
@@ -111,13 +110,13 @@ class Terms(Infix):
         """Return the text of a term with the operation ``given``, ``holding``, ``none`` or ``infinity``.
 
         The operation ``given`` tests whether an optional argument is present. The operation ``holding``
-        returns a function of time that is constant.
+        returns a constant function of time.
         """
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
             case "holding":
-                # Constant inputs become a function of time that always returns the same list.
+                # The printed function returns the same list at all times.
                 return Text((f"lambda t: {self.line(term.args[0])}",), CHOICE)
             case "none":
                 return Text(("None",))
@@ -134,13 +133,13 @@ class Terms(Infix):
         """Return the Python text of a constant."""
         if term.kind is Kind.REAL:
             return self.constants.text(term.number)
-        # A flag is printed as True or False, and a count as an integer.
+        # A flag is printed as True or False. A count is printed as an integer.
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return the text of the conditional expression ``yes if test else no``."""
-        # If an operand is a conditional expression, it needs parentheses. The operand after ``else`` is an
-        # exception: Python reads ``a if s else b if t else c`` as ``a if s else (b if t else c)``.
+        # Before ``else``, a conditional expression needs parentheses. After ``else``, it needs none: Python
+        # reads ``a if s else b if t else c`` as ``a if s else (b if t else c)``.
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
@@ -148,13 +147,13 @@ class Terms(Infix):
     def called(self, term: Term) -> tuple[str, ...]:
         """Return the text, in segments, of a call of a library function."""
         given = [self.line(x) for x in term.args]
-        # Python's library has no function for the largest absolute value of an array.
+        # Python has no function for the largest absolute value, so two functions are combined.
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
-        # ``0.0 ** -1`` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
+        # In Python, ``0.0 ** -1`` raises an error. The helper ``_power`` returns an infinity, like C.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        # ``math.copysign`` returns a Python float. In single precision it is converted to a float32.
+        # ``math.copysign`` returns a Python float, so a single precision module converts the result.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
@@ -164,8 +163,8 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In a double precision module, all reals are Python floats, which are doubles. In single precision,
-        # flags and counts need no conversion to double.
+        # In double precision, reals are Python floats, so no conversion is needed. In single precision,
+        # ``wide`` converts only reals, because flags and counts are not float32 numbers.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))

@@ -17,7 +17,7 @@ def quoted(text: str) -> str:
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return ``start``, the ``terms`` separated by commas, and ``end``, on one line if possible.
 
-    If the line is too long, ``start`` and ``end`` have their own lines.
+    If this line is too long, ``start`` is the first line, and ``end`` is the last line.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -26,7 +26,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{end}"
     if len(line) <= WIDTH:
         return [line]
-    # Each term gets a comma, also the last one. Python allows this.
+    # Python allows a comma after the last term.
     return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
 
 
@@ -38,7 +38,7 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
     for segment in segments[1:]:
-        # If the segment does not fit on the last line, it starts a new line.
+        # A segment that does not fit on the current line starts a new line.
         if len(lines[-1]) + 1 + len(segment) > WIDTH:
             lines.append(f"{space}{segment}")
         else:
@@ -47,23 +47,25 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
 
 
 def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
-    """Return ``start`` and ``segments`` on one line. If the line is too long, use several lines in
-    parentheses.
+    """Return ``start`` and ``segments`` on one line if possible.
+
+    If this line is too long, the segments are in parentheses on several lines.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
     """
     space = "    " * depth
     line = f"{space}{start}{' '.join(segments)}"
-    # A single segment cannot be broken into lines, so it needs no parentheses.
+    # A line with a single segment cannot be broken.
     if len(line) <= WIDTH or len(segments) == 1:
         return [line]
     return [f"{space}{start}(", *packed(segments, depth + 1), f"{space})"]
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
-    """Return ``start`` and a tuple of terms on one line. If the line is too long, use several lines in
-    parentheses.
+    """Return ``start`` and a tuple of terms on one line if possible.
+
+    If this line is too long, the terms are in parentheses on several lines.
     """
     space = "    " * depth
     # The comma after a single term makes a tuple of it.

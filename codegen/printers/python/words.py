@@ -14,8 +14,7 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
-# Builtins are reserved, too: in a function with a parameter ``max``, a call of the builtin ``max`` would
-# fail.
+# Builtins are reserved, too. For example, a parameter ``max`` would hide the builtin function ``max``.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
 """Keywords, and names that a module imports or defines."""
 
@@ -27,7 +26,7 @@ _PUBLIC = """
 PUBLIC = frozenset(_PUBLIC.split())
 """Names of the arguments and local variables of the public functions in a module.
 
-A run-time parameter of the scene must have a different identifier.
+A run-time parameter of the scene must not have such a name in the module.
 """
 
 _INTEGRATION = """
@@ -38,5 +37,5 @@ _INTEGRATION = """
 INTEGRATION = frozenset(_INTEGRATION.split())
 """Names that a module needs for its function ``integrate``, which integrates to a given end time.
 
-They are reserved only in modules with this function.
+A module without this function does not reserve these names.
 """
