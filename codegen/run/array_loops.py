@@ -150,8 +150,8 @@ class ArrayLoops:
     def combination(self, c: Combination) -> Iterator[Statement]:
         """Yield the loops of a linear combination of matrices."""
         target = c.target
-        # All terms with the shape of the target are added in one loop. A smaller term changes only the upper
-        # left part of the target, so a separate loop over this part adds it afterwards.
+        # All terms with the shape of the target are added in one loop. Each smaller term is added by a
+        # separate loop over the upper left part of the target.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
@@ -166,8 +166,7 @@ class ArrayLoops:
                 continue
             part = target.part(0, 0, *term.shape)
 
-            # The loop above has summed all terms with the shape of the target. A term with fewer rows or
-            # columns is added here.
+            # The new entry is the old entry plus the entry of the smaller term.
             def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
                 return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
 
@@ -175,8 +174,8 @@ class ArrayLoops:
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
         """Return the entry at ``place`` of a weighted sum of matrices."""
-        # ``terms`` contains only the matrices with the shape of the target. The list may be empty, and then
-        # the entry is zero.
+        # ``terms`` contains only the matrices with the shape of the target. If the list is empty, the entry
+        # is zero.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
@@ -208,9 +207,9 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return the factor for a coefficient, and the list of statements that compute this factor.
+        """Return the emitted value of the coefficient ``c``, and the statements that compute this value.
 
-        The factor is None if the coefficient is 1 or -1, because no multiplication is needed then.
+        If ``c`` is 1 or -1, no multiplication is needed, and the value is None.
         """
         if _sign(c):
             return None, []
@@ -220,14 +219,14 @@ class ArrayLoops:
         return own(name), [Assign(own(name), value(c))]
 
     def applied(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a constant matrix (left) and a variable matrix (right)."""
+        """Yield the loops for the product C M of a constant matrix C and a variable matrix M."""
         c, target = a.constant, a.target
         if not c.diagonals:
             yield from self.applied_full(a)
             return
         # The loop for the first stored diagonal assigns values to rows of the target. The loops for the other
-        # diagonals add numbers to rows. If the first loop may miss a row, the target is set to zero
-        # beforehand.
+        # diagonals add values to rows. If the first diagonal may miss a row, the target is set to zero before
+        # these loops.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
@@ -236,16 +235,16 @@ class ArrayLoops:
             # The entry in row i and column j of a matrix is in row j and column i of its transpose.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
-            # Each number of a row is multiplied by the same entry. The entry is assigned to a variable, so
-            # that its formula is evaluated only once.
+            # A whole row of the variable matrix is multiplied by one entry of the constant matrix. This entry
+            # is assigned to a variable, so that its formula is evaluated only once.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The statements multiply the row ``a.matrix[column]`` by the number :data:`_ENTRY`, and assign the
-        product to the row ``a.target[row]``. If ``added`` is True, the product is added to this row.
+        The statements multiply row ``column`` of ``a.matrix`` by the number :data:`_ENTRY`. They assign the
+        product to row ``row`` of ``a.target``. If ``added`` is True, they add the product to this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -257,7 +256,7 @@ class ArrayLoops:
         return set_columns
 
     def applied_full(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a full constant matrix (left) and a variable matrix (right)."""
+        """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
         # Each entry of the target in row _ROW is a sum over the index _TERM. In each term, one factor is the
         # entry of the constant matrix in row i and column j.
@@ -269,15 +268,15 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # The statements ``before`` convert the row and the column of the entry to reals. They are
-                # part of the loop over the terms, because each term has another entry.
+                # The statements ``before`` convert the row and the column of the entry to reals. Each term
+                # contains a different entry, so the loop over the terms executes these statements.
                 before=before,
             )
 
         yield For(_ROW, whole(a.target.rows), tuple(_in_groups(a.target.columns, group)))
 
     def applied_from_right(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a variable matrix (left) and a constant matrix (right)."""
+        """Yield the loops for the product M C of a variable matrix M and a constant matrix C."""
         c, target = a.constant, a.target
         # The target is set to zero, because the loops below only add numbers to it.
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
@@ -304,7 +303,8 @@ class ArrayLoops:
 class _Place:
     """The position of an entry in a matrix: a row and a column.
 
-    If ``column`` is None, ``row`` contains the number of the entry, counted row by row from 0.
+    If ``column`` is None, the entries are numbered row by row from 0, and ``row`` contains the number of the
+    entry.
     """
 
     row: Term
@@ -314,18 +314,16 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return a list of statements and an entry of a constant matrix.
+    """Return the list of statements that prepare an entry of a constant matrix, and the entry.
 
-    The statements must be executed before the entry is read. If the entries are numbers, the list is empty,
-    and the entry is read from the table ``table`` at ``place``. If the entries are given by a formula, the
-    statements convert the row and the column to reals for the formula.
+    If ``given`` is a tuple of numbers, the list is empty. The entry is read from the table ``table`` at
+    ``place``. If ``given`` is a formula, the statements convert the row and the column to reals.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # An index that the formula does not read is not converted, because C compilers warn about unused
-    # variables.
+    # C compilers warn about unused variables. Therefore only the indices in the formula are converted.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -337,8 +335,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # Matrices with the same name differ only in the stage time. Their entries depend on the time only if they
-    # are formulas. Therefore one table is enough for each name.
+    # Matrices with the same name differ only in the stage time. Entries that are numbers do not depend on the
+    # time. Therefore one table is enough for each name.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -350,8 +348,8 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
-            # A formula needs no table. An empty tuple needs no table either. ``c.full`` is empty if the
-            # matrix is stored by diagonals.
+            # A formula needs no table. If the matrix is stored by diagonals, ``c.full`` is an empty tuple.
+            # An empty tuple needs no table.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
@@ -372,7 +370,7 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
     Each group has :data:`GROUP` columns. The last group may have fewer columns.
     """
     groups, rest = divmod(columns, GROUP)
-    # A single group begins at column 0. It needs no loop, and its column indices are constants.
+    # A single group of columns needs no loop. It begins at column 0, so its column indices are constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
@@ -384,7 +382,7 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
 
 
 def _shifted(first: Term | None, column: int) -> Index:
-    # If the column does not depend on a loop index, it is returned as an integer. The emitted index is then a
+    # If the column does not depend on a loop index, an integer is returned, so that the emitted index is a
     # constant.
     if first is None:
         return column
@@ -424,7 +422,7 @@ def _is_whole(matrix: Matrix) -> bool:
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if a constant matrix is square, and its first stored diagonal is the main diagonal."""
+    """Return True if the first stored diagonal of a matrix has an entry in every row and every column."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -435,10 +433,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return ``total`` plus the coefficient of ``term`` times ``entry``.
+    """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, nothing is added to the product. ``weight`` is the coefficient as a value of the
-    emitted code. ``weight`` is None if the coefficient is 1 or -1.
+    If ``total`` is None, return only the product. The argument ``weight`` is the emitted value of the
+    coefficient. If the coefficient is 1 or -1, ``weight`` is None.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -58,20 +58,20 @@ RECIPROCALS = "reciprocal"
 MOST_PARTS = 2**20
 """The largest number of equal factors into which a matrix exponential is split.
 
-The number of factors is doubled until the exponent of each factor has a norm of at most 1, or until the
-largest number is reached."""
+The number of factors is doubled until the exponent of each factor has a norm of at most 1. The doubling also
+stops at ``MOST_PARTS`` factors."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # A ``Move`` multiplies a matrix exponential by a point. ``moves`` maps the name of each emitted function
-    # to one of the moves that call this function.
+    # A ``Move`` computes the product of a matrix exponential and a point. Several moves may call the same
+    # emitted function. ``moves`` maps the name of this function to the first of these moves.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # The sizes of the arrays are constants in an emitted function. Therefore all moves that call it must
-        # have arrays of the same sizes.
+        # The sizes of the arrays are constants in an emitted function. Therefore all moves that call the same
+        # function must have arrays of the same sizes.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -134,9 +134,10 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
 
 
 def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
-    """Return the statement that computes the error estimate. The list is empty if the step has no estimate.
+    """Return a list with the statement that computes the error estimate.
 
-    The emitted statement does nothing if the caller passes no array for the estimate.
+    If the step has no estimate, the list is empty. If the caller of the emitted function passes no array for
+    the estimate, the statement does nothing.
     """
     if step.error is None:
         return []
@@ -150,7 +151,7 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     for statement in (*step.body, *step.estimate):
         target = statement.target
         # Several statements may assign to different blocks of one array. ``end`` is the size that the array
-        # needs for the block of this statement.
+        # needs for the block ``target``.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -181,7 +182,8 @@ class _Exponential:
 
         The first k columns of B are X_0. Let C be the sum of D and the first k columns of the unit matrix.
         Then X = B C. The displacement of exp(B S B^T) X is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
-        If the norm of B S B^T exceeds 1, the exponential is computed as a product of equal factors.
+        If the norm of B S B^T exceeds 1, the exponential is split into equal factors. X is multiplied by
+        these factors one after another.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -223,12 +225,12 @@ class _Exponential:
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The loop sets ``square`` to -trace(M^2), where M is ``matrix``. This is the square of the Frobenius
-        # norm of the exponent B S B^T, because the exponent is skew. Its eigenvalues form pairs with equal
-        # absolute values. Therefore the square of its spectral norm is at most half of ``square``.
+        # The loop sets ``square`` to -trace(M^2), where M is ``matrix``. The exponent B S B^T is skew, so
+        # ``square`` is the square of its Frobenius norm. The eigenvalues of a skew matrix form pairs with
+        # equal absolute values. Therefore the square of the spectral norm is at most half of ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make the square slightly negative. The norm is then set to zero. If the square is a
-        # NaN, ``square - square`` is a NaN too, so the NaN is not lost.
+        # Rounding may make ``square`` slightly negative. Then ``square - square`` is zero, and the norm is
+        # zero. If ``square`` is a NaN, ``square - square`` and the norm are NaNs.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
@@ -238,8 +240,8 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If the exponent of a factor still has a norm above 1 after all halvings, the result is filled with
-        # NaNs (infinity minus infinity). The test of the new state then finds the failure.
+        # The largest number of factors may be too small. Then the exponent of each factor has a norm above 1,
+        # and the result is filled with NaNs. The test of the new state finds these NaNs.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -253,9 +255,9 @@ class _Exponential:
         The constant term 1 is not counted. ``size`` is the norm of the exponent.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let n be ``terms``, and let ``theta`` be the norm of z. The series z phi(z) = z + z^2/2! + ... ends
-        # with the term z^(n + 1)/(n + 1)!. The norm of the first omitted term is at most ``bound``, which is
-        # theta^(n + 2)/(n + 2)!.
+        # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The last included term of the
+        # series exp(z) - 1 = z + z^2/2! + ... is z^(n + 1)/(n + 1)!. The norm of the first omitted term is at
+        # most theta^(n + 2)/(n + 2)!. This number is ``bound``.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -283,25 +285,25 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # Let X = X_0 + B D be the current point, and let G be B^T B. The following statements set ``total``
-        # to B^T X = B^T X_0 + G D. The first k columns of B are X_0, so B^T X_0 is copied from the first k
-        # columns of G.
+        # Let X = X_0 + B D be the current point, and let G be B^T B. Then B^T X is the sum of B^T X_0 and
+        # G D. The following statements compute the first m rows of this sum in ``total``. The first k columns
+        # of B are X_0, so the first k columns of G are B^T X_0.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # The product G D is added. If ``start`` is None, D is zero for the first factor (``part`` = 0), so
-        # the product is not computed for this factor.
+        # The product G D is added to ``total``. If ``start`` is None, D is zero for the first factor
+        # (``part`` = 0). This factor needs no product G D.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # The terms of the series phi(z) B^T X are z^j/(j + 1)! B^T X. Here z is ``scale`` times G S. Term j
-        # is z/(j + 1) times term j - 1.
+        # Let z be ``scale`` times G S. The following loop adds the terms z^j/(j + 1)! B^T X for j = 1, 2, ...
+        # to ``total``. Term j is z/(j + 1) times term j - 1.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),

@@ -5,11 +5,12 @@ In an array of the batch, component k of lane i has the index ``k * stride + i``
 
 An explicit kernel is evaluated by one loop over many lanes. The loop has no branches, so compilers can use
 vector instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near
-zero. For all other arguments they return NaN. If a NaN occurs in a lane, the scalar step is called for this
-lane. In all other lanes the loop has the same rounding errors as the scalar step.
+zero. For all other arguments they return NaN. If the new state of a lane is not finite, the scalar step is
+called for this lane. In all other lanes, the result has the same rounding errors as the scalar step.
 
-A loop without branches is not possible, for example, if a step solves equations. The function ``run`` is then
-called for each lane. The function :func:`obstacle` returns the reason.
+Some steps cannot be computed by one loop without branches. An example is a step that solves equations. For
+these steps, the function ``run`` is called for each lane. The function :func:`obstacle` returns the reason
+why one loop is not possible.
 """
 
 from __future__ import annotations
@@ -70,9 +71,9 @@ BLOCK = 128
 A block makes all its steps in one loop, so that the states of its lanes stay in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The names of functions that need no branches, so the loop over lanes may call them.
+"""The names of functions that can be computed without branches.
 
-The loop may also call the Stumpff functions, which are not listed here."""
+The loop over lanes calls only these functions and the Stumpff functions."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 # In a loop over a block, ``_LANE`` is the index of a lane in the block, and ``_PLACE`` is the index of the
@@ -132,8 +133,9 @@ def _statements(plan: Plan) -> list[Statement]:
 
 
 def near(name: str) -> str:
-    """Return the name of the branch-free variant of the function ``name``, or ``name`` if there is no
-    variant.
+    """Return the name of the variant of the function ``name`` without branches.
+
+    If there is no such variant, return ``name``.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -142,9 +144,9 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the emitted function that computes the function ``name`` for every argument.
+    """Return the name of the variant of the function ``name`` that accepts every argument.
 
-    For arguments near zero, the emitted function returns the same number as its variant without branches
+    For arguments near zero, this variant returns the same number as the variant without branches
     (:func:`near`).
 
     >>> complete("sin"), complete("stumpff_12")
@@ -235,15 +237,15 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
     flag = Term("name", (), Kind.FLAG, bad.text)
     first = select(flag, code(BAD_STEP), code(OK))
     body: list[Statement] = [
-        # The step size is tested only if the batch makes at least one step.
+        # If the batch makes no step, the step size is not tested.
         Assign(flag, both(STEPS > 0, negated(is_finite(STEP)))),
         # Every lane gets a status, even if the batch makes no step.
         For(_LANE, _TOTAL, (Assign(statuses[_LANE], first), Assign(ended[_LANE], whole(0)))),
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # The result is the status of the first lane that failed. The loop runs backwards, so this lane is the
-        # last one to overwrite STATUS.
+        # The result is the status of the failed lane with the smallest index. The loop runs backwards, so the
+        # status of this lane is assigned last.
         For(
             _LANE,
             _TOTAL,
@@ -320,7 +322,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # If the scalar step fails, the lane stops after ``_DONE`` completed steps.
+    # If the scalar step fails, the lane stops. It has completed ``_DONE`` steps.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),
@@ -333,8 +335,8 @@ def _blocks(plan: Plan) -> list[Statement]:
         # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
-    # ``failed`` is 1 if the lane failed in this step, or if it stopped in an earlier step. Only lanes that
-    # failed in this step call the scalar step.
+    # ``failed`` is 1 for the lanes that failed in this step, and for the lanes that stopped in an earlier
+    # step. A lane that has stopped does not call the scalar step.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),

@@ -5,7 +5,8 @@ has a finite result, the failed step was too long, and the status is TOO_FAR. Fo
 large that it had no correct digit, a formula had a pole, or a number overflowed. If the step of size zero
 also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
 
-Implicit steps with a warm start use the continuation instead (:mod:`codegen.run.continuation`).
+Steps with a warm start do not call this function. If such a step fails, the continuation finds the cause
+(:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -20,17 +21,17 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start find the cause by continuation. With run-time inputs, a step of size zero reads
-    # the inputs at its initial time only, but the failed step also read them at later times. The success of a
-    # step of size zero would therefore not show that h is too large.
+    # If there is a warm start, the continuation finds the cause. A step of size zero reads run-time inputs
+    # only at its initial time. The failed step also read inputs at later times, and these inputs may be the
+    # cause.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. The arguments of ``core`` are the state, the time
-    (if the step depends on the time), the step size, and the terms ``more``.
+    ``core`` is the name of the function that makes a step. Its arguments are the state, the time, the step
+    size, and the terms ``more``. If the step does not depend on the time, it has no argument for the time.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
