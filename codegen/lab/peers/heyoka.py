@@ -47,6 +47,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # run(0) integrates over an empty interval, and its time is the overhead of a call. heyoka computes about
-    # one step even then, so the overhead is slightly too large.
+    # The time of run(0), over an empty interval, is the overhead of a call. heyoka computes about one step
+    # for an empty interval, so the overhead is slightly too large.
     return Prepared(run, lambda: run(0))

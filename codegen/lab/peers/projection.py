@@ -2,8 +2,8 @@
 
 A rotation matrix g is replaced by g (3 I - g^T g)/2, where I is the identity matrix and g^T is the transpose.
 This is one Newton step towards the orthogonal polar factor of g. If the distance of g from the orthogonal
-matrices is e, the new distance is O(e^2). A point on a sphere around the origin is scaled to its initial
-distance from the origin. Momenta are not changed.
+matrices is e, the distance of the replacement is O(e^2). A point on a sphere around the origin is scaled to
+the radius of the sphere. Momenta are not changed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
     """Return the projection of a state onto the manifold of the scene.
 
-    Raises :class:`SceneError` if no projection onto the manifold is known.
+    Raises :class:`SceneError` if there is no projection for a part of the state.
     """
     result: list[Scalar] = []
     start = 0
@@ -63,6 +63,6 @@ def projection_lines(scene: Problem) -> StraightLine:
 
 
 def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:
-    """Return the function that projects a state, given by its coordinates, onto the manifold of a scene."""
+    """Return a function that projects the coordinates of a state onto the manifold of a scene."""
     field = projection_lines(scene).python(float, {"sqrt": math.sqrt})
     return lambda y: field(y, 0.0)

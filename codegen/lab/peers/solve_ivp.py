@@ -1,4 +1,4 @@
-"""SciPy's solvers DOP853, Radau and LSODA. DOP853 and Radau can project each new state onto the manifold."""
+"""SciPy's solvers DOP853, Radau and LSODA. DOP853 and Radau have variants with projection."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FUNCTIONS = of_scalars(math)
 
 
 def peer(name: str) -> Peer:
-    """Return a peer of SciPy by its name, such as ``scipy-radau``.
+    """Return a SciPy solver for comparison. ``name`` is a name such as ``scipy-radau``.
 
-    If the name ends in ``-projected``, the peer projects the state onto the manifold after each step.
+    If the name ends in ``-projected``, the state is projected onto the manifold after each step.
     """
     import scipy
 

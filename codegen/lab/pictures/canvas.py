@@ -1,4 +1,4 @@
-"""The canvas of a picture, on which curves are drawn in one or several panels."""
+"""The canvas of a picture. A canvas has one or several panels with curves."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 class Canvas:
     """A picture to which curves are added.
 
-    Curves with equal labels form a series. The legend has one entry for each series. On the page, all curves
-    of a series are shown or hidden together.
+    Curves with equal labels form a series. The legend has one entry for each series. On an HTML
+    page, the user can hide all curves of a series together.
 
     - ``drawing``: the figure of Matplotlib.
     - ``panels``: the Matplotlib axes of the panels.
@@ -82,9 +82,9 @@ class Canvas:
     ) -> Canvas:
         """Return a canvas with ``count`` panels.
 
-        ``columns`` is the largest number of panels in a row. If ``columns`` is 2 and there are three panels,
-        all three are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of the
-        picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is
+        ``columns`` is the largest number of panels in a row, with one exception: three panels are in one row
+        if ``columns`` is at least 2. ``height`` is the height of a panel in inches. ``width`` is the width of
+        the picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is
         True, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
@@ -107,9 +107,9 @@ class Canvas:
     ) -> None:
         """Draw a curve as a line.
 
-        ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` are the indices
-        of the points with markers, and ``texts`` are the texts of these markers. ``looks`` contains keyword
-        arguments of Matplotlib's ``plot``. They override the arguments that follow from ``style``.
+        ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` contains the
+        indices of the points with markers. ``texts`` contains the texts of these markers. ``looks`` contains
+        keyword arguments of Matplotlib's ``plot``. An argument in ``looks`` overrides ``style``.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -172,8 +172,8 @@ class Canvas:
 def styles(figure: Figure) -> dict[str, Style]:
     """Return a dictionary that maps the name of each run of a figure to the style of the run.
 
-    If no two runs use the same method, the style of a run depends on its method. Otherwise, the style of
-    each run depends on its name.
+    If all runs use different methods, the method of a run determines its style. Otherwise, the name of the
+    run determines its style.
     """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
@@ -188,11 +188,11 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Choose at most ``most`` of ``count`` points, at about equal distances, and return their indices.
+    """Choose at most ``most`` of ``count`` points and return the indices of the chosen points.
 
     If ``count`` is greater than ``most``, the points are divided into ``most`` groups of about equal size.
-    One point of each group is chosen. ``shift`` is at least 0 and less than 1. If ``shift`` is 0, the first
-    point of each group is chosen. A greater ``shift`` chooses a later point.
+    One point of each group is chosen. ``shift`` (at least 0 and less than 1) is the position of the chosen
+    point in its group. If ``shift`` is 0, the first point of the group is chosen.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])
@@ -203,9 +203,9 @@ def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
 
 
 def failures(runs: Sequence[Run], reasons: Sequence[str]) -> str:
-    """Return a sentence for each run that ended early.
+    """Return a text with one sentence for each run that did not reach its end time.
 
-    ``reasons`` contains the reason for each run, or '' if the run did not end early.
+    ``reasons`` contains the reason for each run, or '' if the run reached its end time.
     """
     return " ".join(
         f"{run.name} ends early: {reason}." for run, reason in zip(runs, reasons, strict=True) if reason

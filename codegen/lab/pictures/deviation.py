@@ -1,8 +1,9 @@
 """Draws the largest deviation of a quantity against time.
 
-A deviation is the difference from the initial value, or from the value along a reference run. If ``window``
-of the figure is 0, the figure shows at each time t the largest deviation up to t. Otherwise, it shows the
-largest deviation in each group of ``window`` consecutive states.
+If the figure has a reference run, the deviation is the difference from the value along the reference run.
+Otherwise, the deviation is the difference from the initial value. If the number ``window`` of the figure is
+0, the figure shows the largest deviation up to each time. Otherwise, the figure shows the largest deviation
+in each group of ``window`` consecutive states.
 """
 
 from __future__ import annotations
@@ -18,14 +19,14 @@ from codegen.lab.pictures.source import Source
 from codegen.scene.figure import Deviation, Run
 
 LEAST = 1e-17
-"""The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
+"""The lower limit of the drawn deviations. A smaller deviation is replaced by this value."""
 
 GROWS = 1.02
-"""A new point of a curve is drawn when the largest deviation has grown by about this factor."""
+"""The largest deviation grows by about this factor between two drawn points of a curve."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
-    """Return the picture of a figure: one line for each run, with a logarithmic vertical axis."""
+    """Return the picture, with one curve for each run. The vertical axis is logarithmic."""
     looks = styles(figure)
     numbers: dict[str, float] = {}
     canvas = Canvas.of(1, height=4.2, width=WIDE)
@@ -46,9 +47,10 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return an array of times, and an array with the largest deviation for each of these times.
 
-    If ``figure.window`` is 0, the second array contains the largest deviation up to each time. Otherwise, the
-    states are divided into groups of ``figure.window`` consecutive states. The first array contains the time
-    at the end of each group, and the second array contains the largest deviation in each group.
+    If ``figure.window`` is 0, the second array contains the largest deviation up to each time. Most times at
+    which this deviation changes little are omitted. If ``figure.window`` is positive, the states are divided
+    into groups of ``figure.window`` consecutive states. The first array contains the time at the end of each
+    group, and the second array contains the largest deviation in each group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

@@ -24,7 +24,7 @@ from codegen.scene.sites import Offset, neighbour, offset_of
 
 
 def draw(figure: LatticeMeans, source: Source) -> Drawn:
-    """Return the picture of a figure, with a curve for each quantity of each run.
+    """Return the picture. Each run has one curve for each quantity.
 
     Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a step fails.
     """
@@ -46,7 +46,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
     label_axes(axes, "time t", figure.axis)
     note = f"Lattice of {' x '.join(map(str, figure.shape))} sites. "
     note += " ".join(
-        f"{run}, {name}: {first:.6g} at the start, at most {most:.6g}, {last:.6g} at the end."
+        f"{run}, {name}: {first:.6g} at the start, maximum {most:.6g}, {last:.6g} at the end."
         for run, series in numbers.items()
         for name, (first, most, last) in series.items()
     )
@@ -80,12 +80,13 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 
 
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
-    """Return a function that computes the means of formulas over all sites of a lattice.
+    """Return a function that computes the mean of each quantity over all sites of a lattice.
 
-    The function has two arguments: the states of all sites and the time. A formula contains the
-    coordinates of a site. On a periodic lattice, a formula may also contain the coordinates of the neighbours
-    of the site. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice. Raises the
-    same error if the boundary is open and a formula contains coordinates of neighbours.
+    The function has two arguments: the states of all sites and the time. A quantity is a formula in the
+    coordinates of a site. On a periodic lattice, the formula may also contain coordinates of neighbours.
+
+    Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a quantity is not
+    a formula. The same error is raised for coordinates of neighbours on a lattice with an open boundary.
     """
     import sympy
 
@@ -102,7 +103,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
         raise SceneError(
             "a formula contains coordinates of neighbours, but the lattice has an open boundary",
             where=problem.name,
-            expected="a formula in the coordinates of one site",
+            expected="a formula without coordinates of neighbours",
         )
     around = [str(s) for offset in offsets for s in neighbour(own, offset)]
     reader = Reader(problem.name, own)
@@ -127,7 +128,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 def _formula(problem: Problem, quantity: Quantity) -> Any:
     """Return the quantity if it is a formula. Raise SceneError if it is the name of an invariant.
 
-    The mean of an invariant over all sites is constant in time, so its curve would be a horizontal line.
+    An invariant is constant at every site. The curve of its mean would be a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
@@ -137,9 +138,10 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return one array for each coordinate: its values at the neighbours of all sites of a periodic lattice.
+    """Return one array for each coordinate of a site.
 
-    The entry of a site is the value at the neighbour whose position relative to this site is ``offset``.
+    The array contains, for each site k, the value of the coordinate at the site k + ``offset``. The lattice
+    is continued periodically.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

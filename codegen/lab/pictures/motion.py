@@ -1,7 +1,7 @@
 """Draws the motion of a body that consists of bars, as an SVG element with an animation.
 
 The animation consists of CSS keyframes in a style element, and needs no script. Where no animation is
-possible, for example on paper, the picture still shows the bars at a few times and the path of one point.
+possible, for example on paper, the picture shows the path of one point, and the bars at a few times.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ class _Sheet:
     - ``left``: the least horizontal coordinate of the drawn points.
     - ``high``, ``low``: the largest and the least vertical coordinate of the drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
-    - ``top``: the height of the legend above the drawing in printer's points.
-    - ``axis``: the length of the drawn coordinate axes in space.
+    - ``top``: the height of the space for the legend, in printer's points. The drawing is below this space.
+    - ``axis``: the length of each coordinate axis, in the unit of the points in space.
     """
 
     frame: numpy.ndarray
@@ -159,7 +159,7 @@ def _axes(sheet: _Sheet) -> Iterator[str]:
 
 
 def _fixed(figure: Motion, sheet: _Sheet) -> Iterator[str]:
-    """Yield an SVG element for each fixed point of the figure: a small square."""
+    """Yield a small square, as an SVG element, for each fixed point of the figure."""
     for point in figure.fixed.values():
         x, y = sheet.seen(numpy.array([point]).T)[:, 0]
         yield f'<path d="M{_number(x - 4)} {_number(y - 4)}h8v8h-8Z" style="fill:var(--ink)"/>'
@@ -184,7 +184,8 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
     """Yield SVG elements for numbered dots on the path of a point.
 
-    There is a dot for each time at which the bars are drawn. ``shown`` contains the indices of these times.
+    The bars are drawn at a few times, and the path has a dot at each of these times. ``shown`` contains the
+    indices of these times.
     """
     for number, k in enumerate(shown):
         x, y = trail[:, k]
@@ -203,8 +204,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the transform that maps a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
-    begins at the origin and has the largest length of the bar in the picture. If ``unit`` is empty, the
-    result is an SVG transform. If ``unit`` is ``px``, the result is a CSS transform.
+    begins at the origin. Its length is the largest length of the bar over all times. If ``unit`` is empty,
+    the result is an SVG transform. If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -213,14 +214,14 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
 
 
 def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the angle of a bar in the picture at each time, in degrees, without jumps of a full turn."""
+    """Return the angle of a bar in the picture at each time, in degrees. It has no jumps of a full turn."""
     difference = bar[1] - bar[0]
     turns: numpy.ndarray = numpy.degrees(numpy.unwrap(numpy.arctan2(difference[1], difference[0])))
     return turns
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield an SVG element for each animated bar. Without animation, the element shows the initial position.
+    """Yield an SVG element for each bar. Without animation, the element shows the bar at the initial time.
 
     The CSS class of a bar consists of ``name`` and the number of the bar.
     """

@@ -23,8 +23,8 @@ from codegen.scene.figure import Orders, Run
 def draw(figure: Orders, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Both axes are logarithmic. For each order p in ``figure.orders``, a dashed line of slope p is drawn near
-    the curve whose observed order is closest to p.
+    Both axes are logarithmic. Each order p in ``figure.orders`` has a dashed line of slope p. This line is
+    near the curve with the observed order closest to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -59,7 +59,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
 
 
 def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]]) -> str:
-    """Return a sentence for each run that fails with some step sizes."""
+    """Return a text with one sentence for each run that fails with at least one step size."""
     missing = {run.name: figure.halvings + 1 - len(curves[run.name]) for run in figure.runs}
     return " ".join(
         f"{name} fails with {count} of {figure.halvings + 1} step sizes."
@@ -71,7 +71,7 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
     """Return pairs (step size, error at the end of the time span). The step sizes decrease.
 
-    If a step fails or the error is not finite, the step size is omitted.
+    A pair is omitted if a step fails or the error is not finite.
     """
     problem = source.problem_of(run)
     exact = cached_reference(problem).state
@@ -94,8 +94,8 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 def slope(points: Sequence[tuple[float, float]]) -> float:
     """Return the median of the observed orders between consecutive step sizes.
 
-    ``points`` contains pairs (step size, error). An observed order needs two nonzero errors. If there is no
-    observed order, the result is 0.
+    ``points`` contains pairs (step size, error). A pair of consecutive points with a zero error has no
+    observed order. If there is no observed order, the result is 0.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

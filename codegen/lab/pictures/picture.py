@@ -1,4 +1,4 @@
-"""A drawn picture, with a note for its caption and with the numbers that it shows."""
+"""A class for a drawn picture, a note for the caption, and the numbers in the picture."""
 
 from __future__ import annotations
 
@@ -29,6 +29,6 @@ class Drawn:
 
     @property
     def wide(self) -> bool:
-        """True if the picture needs the width of the page, so that no other picture fits beside it."""
+        """True if the picture is wider than the default. Such a picture fills the width of the page."""
         size = re.search(r'viewBox="0 0 ([\d.]+) ', self.svg)
         return size is not None and float(size[1]) > POINTS * SIZE[0] + 1.0

@@ -60,7 +60,7 @@ def _draw_run(
 
     If ``figure.dots`` is True, each point is drawn as a dot. Otherwise, the curve is a line. ``points``
     contains the x coordinates and the y coordinates of the points. ``times`` contains the time of each point.
-    If the run has a sweep, ``times`` contains the parameter values instead.
+    If the run is repeated for several parameter values, ``times`` contains these values.
     """
     x, y = points
     style = styles(figure)[run.name]
@@ -75,7 +75,7 @@ def _draw_run(
 
 
 def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None:
-    """Set the bounds and the labels of a panel, and draw lines through the origin along both axes."""
+    """Set the bounds and the labels of a panel. Draw a horizontal and a vertical line through the origin."""
     axes.axhline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     label_axes(axes, *figure.axes)
@@ -86,9 +86,9 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds of a rectangle that contains all points of the curves, with a margin.
+    """Return the bounds (left, right, bottom, top) of a rectangle around the curves.
 
-    If ``square`` is True, the rectangle is a square.
+    There is a margin between the curves and the rectangle. If ``square`` is True, the rectangle is a square.
     """
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]

@@ -1,4 +1,4 @@
-"""Maps each kind of figure to the function that draws it, and lists the figures of all scenes.
+"""Maps each kind of figure to its drawing function, and lists the figures of all scenes.
 
 A kind of figure is a subclass of ``Figure`` in :mod:`codegen.scene.figure`, such as ``PlaneCurves``.
 """
@@ -60,8 +60,8 @@ def unregister(kind: type[Figure]) -> None:
 def draw(figure: Figure, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Raises SceneError if no function is known that draws figures of this class, or if the figure cannot be
-    drawn, for example because a reference run fails.
+    Raises SceneError if this class of figures has no drawing function. Raises SceneError if the figure
+    cannot be drawn, for example after a failed reference run.
     """
     for kind in type(figure).__mro__:
         if kind in _registered:
@@ -104,7 +104,7 @@ def listing() -> list[dict[str, str]]:
     """Return the list of all figures, which ``orderconds list figures`` prints.
 
     In each entry, ``name`` contains the name of the scene and the name of the figure. ``about`` contains the
-    title of the figure and, if known, the source.
+    title of the figure. If the figure reproduces a published figure, ``about`` also names the publication.
     """
     return [
         {

@@ -18,15 +18,13 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The tolerance for the parameter value with the least error, divided by the length of the parameter
-interval.
-"""
+"""The tolerance of the minimisation, divided by the length of the parameter interval."""
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture, with a curve and a cross for each run of the figure.
+    """Return the picture. Each run of the figure has one curve: its error against the parameter.
 
-    The curve shows the error against the parameter, and the cross marks the least error.
+    A cross marks the least error of each curve.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -47,7 +45,7 @@ def draw(figure: Scan, source: Source) -> Drawn:
         axes.plot([best], [least], marker="x", color=INK, markersize=7, zorder=5)
         annotate(axes, f"{name} = {best:.4g}", (best, least), (6, 4), "left")
         numbers[run.name] = {name: best, "error": least}
-        notes.append(f"The error of {run.name} is least at {name} = {best:.5g}: {scientific(least, 3)}.")
+        notes.append(f"The least error of {run.name} is {scientific(least, 3)}, at {name} = {best:.5g}.")
     label_axes(axes, _sweep(figure.runs[0]).name, figure.axis or "distance from the final reference state")
     few_decades(axes)
     notes.append(failures(figure.runs, [source.path(run).failure for run in figure.runs]))
@@ -58,8 +56,8 @@ def draw(figure: Scan, source: Source) -> Drawn:
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
     """Return the distance of the final state of a run from the final state of the reference run.
 
-    ``value`` is the parameter value of the run. If a step of the run fails, the result is infinity. If the
-    reference run fails, SceneError is raised.
+    ``value`` is the value of the varied parameter. If a step of the run fails, the result is infinity. If
+    the reference run fails, SceneError is raised.
     """
     if figure.reference is None:
         raise ValueError("expected a reference run in a scan, found none")
@@ -82,8 +80,8 @@ def minimum(
 ) -> tuple[float, float]:
     """Return a pair: the parameter value with the least error, and the least error.
 
-    ``values`` contains the parameter values of the sweep in order. ``sizes`` contains the error for each of
-    these values. Brent's method then minimises the error near the best value of the sweep.
+    ``values`` contains parameter values in order. ``sizes`` contains the error for each of these values.
+    Brent's method minimises the error in the neighbourhood of the best of these values.
     """
     from scipy.optimize import minimize_scalar
 
