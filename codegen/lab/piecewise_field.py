@@ -1,10 +1,10 @@
-"""Integrates a scene whose vector field is not smooth everywhere, with smooth fields between events.
+"""Vector fields that are only piecewise smooth, for the reference solution of a scene.
 
-A selection is an operation with several cases, such as an absolute value or a table. In the code, a case is
-called a *side*. As long as each selection remains in its case, the field is smooth
-(:mod:`codegen.ir.smoothness`). Each selection has a margin. This is a function of the state and the time that
-is positive while the current case applies. An event is a time at which a margin becomes zero. After an event,
-another case applies, and the integrator uses the smooth field for this case.
+A selection is an operation with several cases, such as an absolute value or a table. The code calls a case a
+*side*. The field is smooth while no selection changes its case (:mod:`codegen.ir.smoothness`). The margin of
+a selection is a function of the state and the time. The margin is positive while the current case applies. An
+event is a time at which a margin becomes zero. After an event, another case applies. The integration then
+continues with the smooth field of this case.
 """
 
 from __future__ import annotations
@@ -27,31 +27,30 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The case that applies just after a time t is determined at the time t + AHEAD.
+"""The case of a selection just after a time t is determined at the time t + AHEAD.
 
-Here t is usually the computed time at which an operation, such as an absolute value, changes from one of its
-cases to another. AHEAD is much larger than the error of t, and much smaller than the time scales of the
+A selection is an operation with several cases. If its case changes at t, rounding errors would decide the
+case at t itself. AHEAD is much larger than the error of t, and much smaller than the time scales of the
 solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""The smooth fields before and after an event are compared NEAR[0] and NEAR[1] time units after the event.
+"""Two times after an event, measured from the event.
 
-At an event, the field changes from one smooth field to another. The comparison shows how many derivatives of
-the field are continuous at the event.
+At an event, one smooth field replaces another. The difference of these two fields is computed at both times.
+The ratio of the differences shows how many derivatives of the field are continuous at the event.
 """
 
 VANISHING = 1e-30
-"""A margin counts as zero if its absolute value is less than VANISHING.
+"""A margin whose absolute value is less than VANISHING counts as zero.
 
-Each selection (operation with several cases) has a margin. The margin is positive while the current case of
-the selection applies.
+A margin is a function of the state and the time. It becomes zero at an event.
 """
 
 SUBSTEPS = 24
-"""The largest number of points inside a step at which the integrator tests whether an event has occurred.
+"""The largest number of points inside a step at which the margins are tested.
 
-At an event, an operation such as an absolute value changes from one of its cases to another.
+A negative margin shows that an event has occurred.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
@@ -59,7 +58,7 @@ MOST_EVENTS, MOST_SECANTS = 1000, 100
 MOST = 9
 """The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns.
 
-A field with more continuous derivatives has this number, too.
+If the field has more continuous derivatives, the result is MOST.
 """
 
 
@@ -67,8 +66,8 @@ A field with more continuous derivatives has this number, too.
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    There is one smooth field for each combination of cases. ``compiled`` stores the results of :meth:`on`.
-    The keys of ``compiled`` are combinations of cases.
+    Each combination of cases has its own smooth field. ``compiled`` is a dictionary of the results of
+    :meth:`on`, and its keys are combinations of cases.
     """
 
     scene: Problem
@@ -85,7 +84,7 @@ class PiecewiseField:
 
     @cached_property
     def nodes(self) -> list[Expr]:
-        """The selections (operations with several cases) of the field."""
+        """All selections of the field. A selection is an operation with several cases."""
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
@@ -103,10 +102,10 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the case of each selection just after the time t, on the solution through (y, t).
+        """Return the case of each selection just after the time t.
 
-        A selection is an operation with several cases. ``flow`` is the vector field that the solution
-        follows, by default the field of the scene.
+        A selection is an operation with several cases. At the time t, the solution has the state y and the
+        derivative ``flow(y, t)``. By default, ``flow`` is the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -122,8 +121,8 @@ class PiecewiseField:
         """Return the case of each selection after an event at (y, t), and the smoothness of the field there.
 
         A selection is an operation with several cases. ``sides`` contains the cases before the event. The
-        smoothness is the number of continuous derivatives of the field, or -1 if the field jumps. Raises
-        :class:`SceneError` if the field after the event points back to the cases before the event.
+        smoothness is the number of continuous derivatives of the field, or -1 if the field is discontinuous.
+        Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -155,12 +154,12 @@ It returns the new state and an error estimate.
 
 
 class Sided:
-    """A vector field, called as a function of (state, t), that uses the current case of each selection.
+    """A vector field as a function of (state, t). It uses the current case of each selection.
 
     A selection is an operation with several cases. ``sides`` contains the current case of each selection. At
     an event, the case of a selection changes. For each past event, ``kinks`` contains the number of
-    continuous derivatives of the field of the scene, or -1 if the field jumps. ``points`` is a list of the
-    pairs (state, t) at which the field was evaluated in the current step.
+    continuous derivatives of the field, or -1 if the field is discontinuous. ``points`` contains the pairs
+    (state, t) of the latest evaluations of the field.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -178,7 +177,7 @@ class Sided:
     def __call__(self, y: Vector, t: Scalar) -> Vector:
         """Return the value of the field at the state y and the time t, and add (y, t) to ``points``.
 
-        Each operation with several cases uses its current case, which is in ``sides``.
+        Each selection (operation with several cases) uses its current case.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
@@ -191,11 +190,12 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if the case of a selection changes in a step, that is, if a margin becomes negative.
+        """Return True if a margin is negative at a tested point of a step.
 
-        The step has the given length and leads from the state ``y`` at the time ``t`` to the state ``new``.
-        The margins are tested at the end of the step. They are also tested at the points of the last
-        :data:`SUBSTEPS` evaluations of the field, if the step is longer than two shortest permitted steps.
+        A negative margin shows that the case of a selection has changed. The step begins at the state ``y``
+        and the time ``t``, has the given length, and ends at the state ``new``. The end of the step is always
+        tested. In a step of more than twice the shortest permitted length, the points of the last
+        :data:`SUBSTEPS` evaluations of the field are tested, too.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -206,15 +206,15 @@ class Sided:
         """Find the first event in a step, and change to the cases that apply after the event.
 
         At an event, the case of a selection (an operation with several cases) changes. The step has the given
-        length and begins at (y, t). Return the time and the state of the event. If the event cannot be found
-        in this step, return None. The caller must then try a shorter step.
+        length and begins at (y, t). The result is the time and the state of the event. If the event cannot be
+        found in this step, the result is None, and the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # If a margin is zero at the beginning of the step, the step begins at an event. The root search would
-        # find this event again and not the next event. Therefore the caller must try a shorter step.
-        # The shorter step can end before the next event.
+        # If no margin is negative at the end of the step, the root search has no interval with a sign change.
+        # If a negative margin was zero at the beginning of the step, the search would return the beginning.
+        # In both cases the caller must try a shorter step.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -239,10 +239,10 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return a zero of the function ``margin``, by the Illinois variant of the false position method.
+    """Return a zero of the function ``margin`` between 0 and ``length``.
 
-    The argument of ``margin`` is the time since the beginning of a step of the given length. The value at the
-    beginning is ``low`` > 0, and the value at the end is ``high`` < 0.
+    The method is the Illinois variant of the false position method. ``low`` is the value of the function at
+    0 and must be positive. ``high`` is the value at ``length`` and must be negative.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

@@ -5,7 +5,7 @@ y. The modified midpoint rule is applied to the coordinates of y. The results of
 the squared step size (Hairer, Norsett and Wanner I, section II.9).
 
 The reference uses no group exponential and no code of a method. An error in an exponential or in a method
-therefore cannot change the reference, and a comparison shows the error.
+therefore cannot change the reference. A comparison of the method with the reference shows the error.
 
 The equation is solved twice, with different order and tolerance. The reference is accepted only if the two
 final states agree. The uncertainty is the maximum norm of their difference.
@@ -31,8 +31,9 @@ from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""The working precision in decimal digits. The reference has fewer correct digits, because extrapolation with
-16 columns loses up to ten digits.
+"""The number of decimal digits of the initial state and of the reference solution.
+
+The reference solution has fewer correct digits (see :data:`AGREEMENT`).
 """
 
 BITS = 200
@@ -48,7 +49,8 @@ gives the result. The first run is used only to check this result.
 AGREEMENT = 1e-28
 """The largest accepted difference between the final states of the two runs of a reference solution.
 
-The difference is relative to the size of the state. :data:`RUNS` describes the two runs.
+The difference is relative to the largest coordinate of the state, or absolute if this coordinate is less
+than 1. :data:`RUNS` describes the two runs.
 """
 
 LEAST_STEP = 1e-6
@@ -60,7 +62,8 @@ If a step becomes shorter, the solution is probably close to a singularity, and 
 MOST_STEPS = 10_000
 """The largest number of extrapolation steps.
 
-If more steps are needed, the equation is too stiff or its time span too long, and SceneError is raised.
+If more steps are necessary, SceneError is raised. The equation is then too stiff, or the time span is too
+long.
 """
 
 
@@ -70,9 +73,9 @@ class Reference:
 
     ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of :data:`DIGITS`
     digits, in the order of the attribute ``symbols`` of the scene. The state is computed twice, with
-    different order and tolerance. ``uncertainty`` is the largest difference of a coordinate between the two
-    results. A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks``
-    contains the number of continuous derivatives of the field, or -1 if the field jumps.
+    different order and tolerance. ``uncertainty`` is the maximum norm of the difference of the two results.
+    A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks`` contains the
+    number of continuous derivatives of the field, or -1 if the field is discontinuous.
     """
 
     scene: str
@@ -99,10 +102,11 @@ class _Stored:
 def cached_reference(
     scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
 ) -> Reference:
-    """Return the reference solution of a scene. Read it from the cache, or compute and store it.
+    """Return the reference solution of a scene from the cache.
 
-    The default of ``cache`` is the cache of the current user. The function raises the errors of
-    :func:`reference`, for example if ``time.monotonic()`` exceeds ``end`` during the computation.
+    If the cache does not contain the solution, the function computes the solution and stores it in the cache.
+    The default of ``cache`` is the cache of the current user. For ``end`` and the errors, see
+    :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -138,9 +142,10 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Compute the state of a scene at the end of its time span, and measure the uncertainty of this state.
 
-    Two runs of different order and tolerance are made. :class:`codegen.errors.SceneError` is raised if the
-    equations cannot be evaluated along the solution, or if the two final states do not agree to 28 digits.
-    SceneError is also raised if ``time.monotonic()`` exceeds ``end`` during the computation.
+    The equation is solved twice, with different order and tolerance. The uncertainty is the difference of the
+    two final states. :class:`codegen.errors.SceneError` is raised if the equation cannot be solved, or if the
+    two final states do not agree to 28 digits. SceneError is also raised if ``time.monotonic()`` exceeds
+    ``end`` during the computation.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -156,11 +161,11 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Solve the equation of a scene once with step-size control. Return the final state and the kinks.
+    """Solve the equation of a scene once with step-size control.
 
-    The kinks have the form of the attribute ``kinks`` of :class:`Reference`.
-    ``columns`` is the number of columns of the extrapolation table. The tolerance is 10^``exponent``.
-    SceneError is raised if ``time.monotonic()`` exceeds ``finish`` during the run.
+    The result contains the final state and the attribute ``kinks`` of :class:`Reference`. ``columns`` is the
+    number of columns of the extrapolation table. The tolerance is 10^``exponent``. SceneError is raised if
+    ``time.monotonic()`` exceeds ``finish`` during the run.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -174,10 +179,10 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
 def _integrate(
     scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
 ) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the time span, and the kinks (see :class:`Reference`).
+    """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
-    ``y`` is the initial state. Its coordinates are balls of radius zero. SceneError is raised if
-    ``time.monotonic()`` exceeds ``finish`` during the computation.
+    ``y`` is the initial state. ``columns`` is the number of columns of the extrapolation table. SceneError is
+    raised if ``time.monotonic()`` exceeds ``finish`` during the computation.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -219,8 +224,8 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^p with p = 2 * columns - 1. Therefore the largest
-        # permitted step is step * ratio. The factor 0.9 makes the step a little shorter.
+        # The error estimate is proportional to step^p with p = 2 * columns - 1. Therefore a step of length
+        # step * ratio would have the largest permitted error. The factor 0.9 makes the step a little shorter.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:

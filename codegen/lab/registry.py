@@ -73,8 +73,8 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
     """Return the measurements whose name or whose attribute ``part_of`` is in ``names``.
 
-    ``part_of`` is the name of a larger measurement. If ``names`` is empty, all measurements are returned.
-    Raises :class:`UnknownName` for an unknown name.
+    For example, the measurement ``conditions`` is a part of ``orders``, and its ``part_of`` is ``"orders"``.
+    If ``names`` is empty, all measurements are returned. Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]

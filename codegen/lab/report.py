@@ -31,7 +31,7 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """The options of the command ``report``. An option that is an empty tuple has its default value.
+    """The options of the command ``report``. If an option is an empty tuple, its default value is used.
 
     - ``scenes``: the names of scenes, by default :data:`REPORT_SCENES`.
     - ``methods``: the names of the methods to run with equal steps.
@@ -61,7 +61,7 @@ class Request:
     def subject(self, name: str) -> Subject:
         """Return the input of all measurements on a scene: the scene, and the methods and peers to measure.
 
-        Raises InputError for an unknown name of a scene, method or peer.
+        Raises InputError if the name of a scene, method or peer is unknown.
         """
         effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
         scene = scenes.with_one_system(scenes.load(name))
@@ -105,10 +105,10 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
     Returns the path of the overview page, and the results of each scene. The page of a scene is written as
     soon as the scene is measured. Results are also stored in a hidden subfolder until the report is complete.
-    An interrupted report can therefore continue. For one scene, ``progress`` is called with a text before
-    each measurement. For several scenes, ``progress`` is called with the name of each finished scene. Before
-    the first measurement, :class:`InputError` is raised if a name is unknown, if there is no C compiler, or
-    if the folder cannot be written to.
+    After an interruption, the next call reuses the stored results. For one scene, ``progress`` is called with
+    a text before each measurement. For several scenes, ``progress`` is called with the name of each finished
+    scene. Before the first measurement, :class:`InputError` is raised if a name is unknown, if there is no C
+    compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
     request.check()

@@ -41,7 +41,7 @@ class RunFailed(ArithmeticError):
 
 @dataclass
 class Interpreted:
-    """A runner that interprets the optimised program of a step.
+    """A runner that executes the optimised program of a step with the interpreter.
 
     If ``digits`` is at most 16, the arithmetic uses doubles, and states are lists of floats. Otherwise it
     uses :class:`~codegen.ir.ball_domain.BallDomain` with ``digits`` decimal digits, and states are lists of
@@ -59,7 +59,7 @@ class Interpreted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. A run of this length takes about ten seconds."""
+        """The largest number of steps in a convergence test. These steps take about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
@@ -69,9 +69,7 @@ class Interpreted:
 
     @cached_property
     def problem(self) -> Problem:
-        """The scene in the form that the family of the method requires, for example as a Hamiltonian
-        system.
-        """
+        """The scene in the form that the method requires, for example as a Hamiltonian system."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
@@ -139,7 +137,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. A run of this length takes about one second."""
+        """The largest number of steps in a convergence test. These steps take about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -156,7 +154,7 @@ class Emitted:
     def observed(self) -> Emitted:
         """A runner of the same method whose module can also return the solutions of the implicit equations.
 
-        For some targets, such a module cannot be emitted. The target of this runner may therefore differ from
+        Not every target can emit such a module. Therefore the target of the observed runner can differ from
         ``self.target``.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
@@ -169,8 +167,8 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
-        ``statistics`` records how many iterations the solution of implicit equations takes. Raises
-        :class:`RunFailed` if a step fails.
+        ``statistics`` records the number of iterations for the implicit equations. Raises :class:`RunFailed`
+        if a step fails.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
@@ -181,7 +179,7 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""An object that runs one compiled method.
+"""An object that solves one scene with one method.
 
 Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_steps``, and the method
 ``final``.

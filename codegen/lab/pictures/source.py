@@ -1,4 +1,4 @@
-"""Makes the runs of a figure with emitted C, and evaluates the quantities that the figure shows."""
+"""Runs the methods of a figure as emitted C code, and evaluates the quantities that the figure shows."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The states of a run at its output times. A figure shows these states.
+    """The states of a run that a figure shows.
 
-    Each row of ``states`` contains a state, and ``times`` contains the output times. A run with a sweep is
-    repeated with several values of a parameter. For such a run, ``states`` contains the final states, and
-    ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended early, or ''
-    if all steps succeeded.
+    Each row of ``states`` is the state at one of the output times, and ``times`` contains these times. A
+    sweep repeats a run with several values of a parameter. In this case, ``states`` contains the final
+    states, and ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended
+    early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -46,8 +46,7 @@ class Path:
 class Source:
     """Makes the runs for the figures of one scene.
 
-    The emitted modules and the results of runs are stored, so that each module is emitted once and each run
-    is made once.
+    The emitted modules and the results are stored. Therefore each run is made only once.
     """
 
     def __init__(self, problem: Problem, progress: Progress = str) -> None:
@@ -103,9 +102,8 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        A run with a sweep is repeated with several values of a parameter, which can be the step size. For
-        such a run, ``value`` is the value of the parameter. Raises :class:`codegen.integrator.StepFailed` if
-        a step fails.
+        A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
+        ``value`` is one of these values. Raises :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -144,10 +142,10 @@ class Source:
         count = len(times)
         if len(exact) < count or numpy.abs(exact[:count] - times).max() > 1e-6 * (1.0 + abs(times).max()):
             raise SceneError(
-                f"the reference {reference.name} has other output times than {run.name}",
+                f"the reference {reference.name} and the run {run.name} have different output times",
                 where=self.problem.name,
                 expected="a reference run with the same interval between outputs (step size times stride), "
-                "and with the same number of outputs or more",
+                "and with at least as many outputs",
             )
         row: numpy.ndarray = self.values(reference, [quantity])[0][:count]
         return row
@@ -203,7 +201,7 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter for which a run with a sweep is repeated.
+    """Return the parameter values of the sweep of a run.
 
     If the run has no sweep, the result is [].
     """

@@ -1,9 +1,8 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the first quantity is also evaluated along the reference run. The results
-are called the reference values here. If the attribute ``difference`` of the figure is True, the reference
-values are subtracted from the values of every quantity. Otherwise the reference values are drawn as a
-separate line.
+If the figure has a reference run, the first quantity is also evaluated along the reference run. The result
+is the reference curve. If the attribute ``difference`` of the figure is True, the reference curve is
+subtracted from all quantities. Otherwise the reference curve is drawn as a separate line.
 """
 
 from __future__ import annotations
@@ -80,9 +79,9 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the part of ``times`` in the time interval of the figure, and the values at these times.
+    """Return the times within the time interval of the figure, and the values at these times.
 
-    ``row`` contains one value for each of the ``times``.
+    ``row`` contains one value for each element of ``times``.
     """
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
