@@ -1,13 +1,14 @@
-"""The order of a method, measured with steps that are far shorter than every time scale of the scene.
+"""Measures the order of a method with steps that are far shorter than every time scale of the scene.
 
 A small parameter of the scene can hide the leading term of the error. For example, let the error of a run be
 e h^p + h^(p+1), where e is the parameter and h is the step size. If h is much larger than e, the observed
 order is p + 1 and not p. If h is much smaller than e, the first term dominates, and the observed order is p.
-The arithmetic with 100 digits allows such short steps.
+With steps as short as this, the error is tiny. Therefore the arithmetic has 100 digits.
 
 No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
-of two steps of size h/2 is then 2 C (h/2)^(p+1). Therefore the difference between the two results is
-proportional to h^(p+1). The slope of log(difference) against log(h) is p + 1.
+of two steps of size h/2 is then 2 C (h/2)^(p+1). The difference between the two errors is proportional to
+h^(p+1), and it equals the difference between the two computed states. Therefore the slope of log(difference)
+against log(h) is p + 1.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""The exponent in the equation for the shortest step size h: (h/T)^(p+2) = 10^-SMALLEST.
+"""Determines the shortest step size h by the equation (h/T)^(p+2) = 10^-SMALLEST.
 
 Here p is the expected order, and T is the length of the time span.
 """
@@ -34,8 +35,7 @@ STEPS, RATIO = 3, 8
 """The number of step sizes that are tried, and the ratio of two consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""An order is computed from each pair of consecutive step sizes. The orders may differ by at most AGREEMENT.
-"""
+"""The largest permitted difference between the orders computed from two pairs of consecutive step sizes."""
 
 SWEEPS = 400
 
@@ -43,9 +43,11 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order, from which the step sizes are computed. The result is None if a step
-    cannot be computed, if one step and two half steps give the same state, or if the orders computed from
-    different pairs of step sizes do not agree.
+    The step sizes are computed from the expected order ``stated``. The result is None in three cases:
+
+    - A step cannot be computed.
+    - One step and two half steps give the same state.
+    - Different pairs of step sizes give orders that differ by more than :data:`AGREEMENT`.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span
@@ -62,9 +64,9 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 
 
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
-    """Return the difference between the state after one step and the state after two half steps.
+    """Compare one step of length ``size`` from the time ``first`` with two half steps.
 
-    The result is the maximum, over all coordinates, of the absolute difference.
+    The result is the largest absolute difference in a coordinate of the final state.
     """
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)

@@ -1,18 +1,18 @@
-"""The observed order, computed from the errors of runs with a sequence of step sizes, and the verdict on the
-stated order.
+"""Measures the order of a method in runs with different step sizes, and compares it with the stated order.
 
-The slope between two consecutive runs is the logarithm of the ratio of their errors, divided by the logarithm
-of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The excluded runs
-divide the sequence of runs into sections. Only the longest section is used.
+Each slope is computed from two consecutive runs. The slope is the logarithm of the ratio of the errors,
+divided by the logarithm of the ratio of the step sizes. A run is excluded if it fails or if its error is too
+small to be measured. The excluded runs divide the sequence of runs into sections. Only the longest section is
+used.
 
-For a smooth problem and a method of order p, the error is C h^p (1 + O(h)) with a constant C and the step
-size h. A slope therefore differs from p by O(h). If h is divided by r, this difference is also divided by r.
-Let d be the difference between a slope and p. The previous slope differs from p by about r d, so the slope
-has changed by about (r - 1) d. Therefore the change of the slope, divided by r - 1, is an estimate of d. The
-slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
+Let p be the order of the method, and let h be the step size. For a smooth problem, the difference between a
+slope and p is approximately proportional to h. Let d be this difference for one slope. If the previous step
+size was r times as large, the previous difference was about r d. Therefore the slope has changed by about
+(r - 1) d. The change of the slope, divided by r - 1, is an estimate of d. The slopes have *settled* if this
+estimate is at most :data:`SETTLED` for each of the last two slopes.
 
 The last slope is compared with the stated order. The two numbers may differ by at most :data:`TOLERANCE`.
-Therefore a method fails, too, if its order is higher than stated.
+Therefore a method fails if its order is lower or higher than stated.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ TOLERANCE = 0.25
 CLEAR = 100.0
 """A run is used only if its error is larger than two bounds.
 
-The bounds are CLEAR times the estimated rounding error of the run, and CLEAR times the uncertainty of the
-reference solution. If the step sizes of two runs differ by a factor of 2, rounding errors then change the
-slope by less than 0.03. The same holds for the uncertainty of the reference solution.
+The first bound is CLEAR times the estimated rounding error of the run. The second bound is CLEAR times the
+uncertainty of the reference solution. Each of these two sources then changes the error by less than 1 %. If
+the step sizes of two runs differ by a factor of 2, each source changes the slope by less than 0.03.
 """
 
 ZERO = 0.5
-"""An order measured with very short steps is ignored if it is at most ZERO.
+"""If the order measured with very short steps is at most ZERO, this order is ignored.
 
 If the coefficients of a method are rounded, they do not satisfy the order conditions exactly. With very short
 steps, this inaccuracy dominates the error. The measured order can then be close to 0.
@@ -43,7 +43,7 @@ FIRST = 5
 """The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""If rounding errors dominate before the slopes have settled, runs with these numbers of steps are added."""
+"""The numbers of steps of some runs that :func:`refine` adds if the slopes have not settled."""
 
 
 @dataclass(frozen=True)
@@ -72,10 +72,7 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used for slopes.
-
-        The excluded runs divide the sequence of runs into sections. The longest section is used.
-        """
+        """The runs that are used for slopes: the longest section of ``runs`` without excluded runs."""
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
             if run.excluded:
@@ -97,9 +94,9 @@ class Refinement:
     def settled(self) -> bool:
         """True if the last two slopes are close to the limit of the slopes for short steps.
 
-        The limit is not known. The distance of a slope from the limit is therefore estimated, and both
-        estimates must be at most :data:`SETTLED`. The docstring of :mod:`codegen.lab.orders.step_sizes`
-        explains how the distance is estimated.
+        The distance of each of the two slopes from the limit is estimated, because the limit is not known.
+        Each estimate must be at most :data:`SETTLED`. The docstring of :mod:`codegen.lab.orders.step_sizes`
+        derives the estimate.
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
@@ -113,9 +110,9 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). In
-        the rules, p or s equals ``stated`` if the difference is at most :data:`TOLERANCE`. It is above or
-        below ``stated`` if the difference is larger.
+        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). Here
+        a number equals ``stated`` if it differs from ``stated`` by at most :data:`TOLERANCE`. Otherwise the
+        number is above or below ``stated``.
 
         If there is no slope, the verdict is ``undecided``.
 
@@ -127,8 +124,8 @@ class Refinement:
         - If s equals ``stated`` and p is below ``stated``, the verdict is ``undecided``.
         - In all other cases, the verdict is ``fails``.
 
-        If the slopes have not settled, the verdict is ``holds`` if :attr:`too_fine` is True, s equals
-        ``stated``, and p is not below ``stated``. Otherwise the verdict is ``undecided``.
+        If the slopes have not settled, the verdict is ``undecided`` with one exception. If :attr:`too_fine`
+        is True, s equals ``stated``, and p is not below ``stated``, the verdict is ``holds``.
         """
         if self.observed is None:
             return "undecided"
@@ -146,9 +143,9 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """True if at least one run is excluded because its error is too small to be measured.
+        """True if at least one excluded run has an error that is too small to be measured.
 
-        The error of such a run is close to the rounding errors, or to the error of the reference solution.
+        Such an error is close to the rounding errors, or to the error of the reference solution.
         """
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
@@ -165,12 +162,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The sequence ends if rounding
-    errors dominate the error of the last run. If ``to_rounding`` is False, the sequence also ends if the
-    slopes have settled.
+    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. After a usable run, the function
+    stops at the first run whose error is too small to be measured. If ``to_rounding`` is False, the function
+    stops as soon as the slopes have settled.
 
-    If rounding errors dominate before the slopes have settled, the function adds runs with fewer than N steps
-    and runs with intermediate numbers of steps.
+    If the slopes have not settled and the last run is excluded, the function adds runs. Some of the added
+    runs have fewer than N steps. The other added runs have numbers of steps between N, 2 N, 4 N, ....
     """
     runs: list[Run] = []
     steps = FIRST

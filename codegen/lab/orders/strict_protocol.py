@@ -1,8 +1,8 @@
 """The strict protocol: a test of the order of a method on demanding scenes, in arithmetic with 50 digits.
 
 For each scene of :mod:`codegen.lab.orders.strict_scenes`, the slopes of log(error) against log(step size) are
-compared with a stated order. A method passes if on every scene the slopes converge to a number within 0.25 of
-the stated order. A method whose order is higher than stated also fails.
+compared with a stated order. A method passes if the slopes converge on every scene, and if each limit differs
+from the stated order by at most 0.25. Therefore a method fails if its order is lower or higher than stated.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the order to test.
+    """Return the order that is tested. The function returns the first of these orders that exists:
 
-    If ``stated`` is not None, the function returns this order. Otherwise it returns the order that the
-    tableau file claims for the family of the method. If the file claims no such order, the function computes
-    the order from the order conditions.
+    - the order ``stated``,
+    - the order that the tableau file of the method claims for the family of the method,
+    - the order computed from the order conditions.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
@@ -48,8 +48,8 @@ def strict(
     """Test the order of the method on each scene, and yield the results.
 
     By default, the scenes are those of :func:`strict_scenes` for the family of the method. ``tell`` is called
-    with a text before each test. ``alter`` gets the compiled method and returns the method that is tested. A
-    function ``alter`` that inserts an error can show that the test finds errors.
+    with a text before each test. Instead of the compiled method c, the method ``alter(c)`` is tested. If
+    ``alter`` inserts an error into c, the results show whether the test finds the error.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

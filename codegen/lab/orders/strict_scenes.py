@@ -1,18 +1,18 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 The documentation of some published software states order 4 for methods whose true order is 2. The tests of
-the software did not show the true order. They used rotations about one axis, axes of rotation that are
-orthogonal to the state, or fields that do not depend on time.
+the software did not show the true order, because the equations of the tests were too special. The tests used
+rotations about one axis, axes of rotation orthogonal to the state, or fields that do not depend on time.
 
 Each kind of method has its own scenes:
 
 - Methods for general fields run on equations y' = f(t, y).y with the state y and the time t. The value
   f(t, y) is in the Lie algebra of a group, and the dot is the action of the Lie algebra on y. The function f
   is polynomial, and its values for different t and y do not commute. The groups are SO(3), GL(3) and the
-  group of unipotent 4 x 4 matrices. They act on themselves or on vectors.
+  group of unipotent 4 x 4 matrices. Each group acts on itself or on vectors.
 - Variational methods run on T*G, where G is a group. The Hamiltonians have no symmetry and depend on time.
-- Methods for linear equations run on equations y' = A(t).y, where A(t) is in the Lie algebra. The group acts
-  from the left or from the right.
+- Methods for linear equations run on equations y' = A(t).y. The value A(t) is in the Lie algebra of a group.
+  The group acts from the left or from the right.
 - Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of each term is known.
   The flows of different terms do not commute.
 """
@@ -46,13 +46,17 @@ from codegen.scene.problem import Problem
 SPAN = (0, "1/4")
 """The time span of all scenes.
 
-The span is short because a solution of polynomial equations may become infinite after a short time.
+The span is short because the equations of some scenes are polynomial. Their solutions may become infinite
+after a short time.
 """
 
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return the scenes on which methods for general fields are tested. The fields have no symmetry."""
+    """Return the scenes on which methods for equations y' = f(t, y).y are tested.
+
+    The functions f have no symmetry.
+    """
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -85,8 +89,8 @@ def _turn() -> Matrix:
 def _sphere() -> Problem:
     """Return a scene in which SO(3) acts on a sphere.
 
-    The axis of the rotation (the vector ``f``) is not orthogonal to the state. With an orthogonal axis, a
-    test could miss errors of a method.
+    The vector f(t, y) is the axis of the rotation of the state y. The axis is not orthogonal to y. With an
+    orthogonal axis, a test could miss errors of a method.
     """
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
@@ -230,8 +234,8 @@ def linear_fields() -> tuple[Problem, ...]:
     """Return the scenes on which methods for linear equations are tested.
 
     Each scene has an equation y' = A(t).y with the state y. A(t) is in the Lie algebra of a group, and the
-    dot is the action of the Lie algebra on y. In one of the scenes, the group acts from the right. In the
-    other scenes, it acts from the left.
+    dot is the action of the Lie algebra on y. The group acts from the right in one scene, and from the left
+    in the other scenes.
     """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])

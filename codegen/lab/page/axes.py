@@ -85,9 +85,9 @@ def label_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def few_decades(axes: Axes) -> None:
-    """Add labels to a logarithmic vertical axis that covers less than two decades.
+    """If the logarithmic vertical axis covers less than two decades, write labels at more values.
 
-    The axis is then labelled at 1, 2 and 5 times each power of ten.
+    The labels are at 1, 2 and 5 times each power of ten.
     """
     from matplotlib.ticker import FuncFormatter, LogLocator
 
@@ -117,8 +117,8 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
     """Draw the legend above the axes. If several curves have the same label, the label is listed once.
 
-    In the SVG element, the legend entry of a curve has the identifier ``key:k`` with a number k. ``numbers``
-    maps each label to its number. By default, the entries are numbered 0, 1, 2, ....
+    In the SVG element, the legend entry with the number k has the identifier ``key:k``. ``numbers`` maps each
+    label to its number. By default, the entries are numbered 0, 1, 2, ....
     """
     entries: dict[str, object] = {}
     for axes in panels:

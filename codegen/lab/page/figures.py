@@ -32,8 +32,9 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line, or None if no line is drawn. If ``upper`` is not empty, a
-    horizontal bar is drawn at each point (x, y), from x to the corresponding number in ``upper``.
+    ``order`` is the slope of a reference line. A curve without a reference line has the order None.
+    If ``upper`` is not empty, it contains a number u for each point (x, y). A horizontal bar is drawn from x
+    to u.
     """
 
     label: str
@@ -103,9 +104,9 @@ SLOPES = (2, 4, 8)
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against CPU time. Each run covers the time span of the scene.
 
-    For equal steps, the CPU time is proportional to the number of steps. Then the error of a method of order
-    p is proportional to T^(-p), where T is the CPU time. The diagram therefore contains a reference line of
-    slope -p for each p of :data:`SLOPES`.
+    If all steps of a run are equal, the CPU time T is proportional to the number of steps. Therefore the
+    error of a method of order p is proportional to T^(-p). The diagram contains a reference line of slope -p
+    for each p of :data:`SLOPES`.
     """
     drawing = _drawing()
     for curve in curves:
@@ -125,7 +126,7 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
     """Return a log-log diagram of deviations, for example of an invariant from its initial value.
 
-    At the time t, a curve shows the largest deviation in the interval from 0 to t. Dotted lines show growth
+    The value of a curve at the time t is the largest deviation from time 0 to t. Dotted lines show growth
     proportional to t^(1/2) and to t.
     """
     drawing = _drawing()
@@ -155,9 +156,9 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-The number is chosen so that the grid on :data:`PLANE` has no point on the imaginary axis. For many methods,
-the absolute value of the stability function is 1 on the imaginary axis. For a grid point on this axis,
-rounding errors would decide whether the point is in the stability region.
+With this number, the grid on :data:`PLANE` has no point on the imaginary axis. For many methods, the absolute
+value of the stability function is 1 on this axis. For a grid point on the axis, rounding errors would decide
+whether the point is in the stability region.
 """
 
 MARGIN = 0.7
@@ -171,8 +172,8 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
     """Return a diagram in which the stability region of each method is shaded.
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
-    stability region contains the points z of the complex plane with |R(z)| <= 1. The markers of different
-    methods are at different points. Therefore methods with the same boundary can be distinguished.
+    stability region contains the points z of the complex plane with |R(z)| <= 1. If two methods have the same
+    boundary, their markers are at different points of the boundary.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -224,9 +225,9 @@ class _Plane:
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
         """Return a grid for a diagram of the stability regions of ``functions``.
 
-        The grid covers the stability regions and a margin around them, as far as they are inside
-        :data:`PLANE`. If the margin crosses the upper or the lower edge of PLANE, the grid covers all of
-        PLANE.
+        The grid covers a rectangle inside :data:`PLANE`. The rectangle contains the stability regions in
+        PLANE and a margin around them. If the margin crosses the upper or the lower edge of PLANE, the
+        rectangle is PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -254,7 +255,7 @@ class _Plane:
 
 
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
-    """Return the indices of at most ``count`` of the positions, chosen at about equal distances.
+    """Choose at most ``count`` positions at about equal distances, and return their indices.
 
     ``positions`` is an increasing sequence. Its range is divided into ``count`` equal intervals. In each
     interval, ``shift`` (from 0 to 1) selects a point: 0 is the beginning of the interval, and 1 is the end.
@@ -272,10 +273,10 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points at about equal distances on the lines of a contour.
+    """Return points at about equal distances on a contour. ``segments`` contains the lines of the contour.
 
-    Each line is divided into intervals of equal length. In each interval, ``shift`` (from 0 to 1) selects the
-    place of the returned point: 0 is the beginning of the interval, and 1 is the end.
+    Each line is divided into intervals of equal length, and one point of each interval is returned. ``shift``
+    is the place of the point in the interval: 0 is the beginning, and 1 is the end.
     """
     points: list[Point] = []
     for segment in segments:
@@ -325,8 +326,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    The curves of the diagram seldom reach the lower left corner and the upper right corner. The lines are
-    drawn in the one of these two corners that contains fewer of the given points.
+    The curves of the diagram seldom reach the lower left corner or the upper right corner. The function
+    chooses the corner with fewer of the given points.
     """
     if not points:
         return

@@ -68,9 +68,9 @@ def seconds(x: float) -> str:
 
 
 def duration(time: float | None) -> str:
-    """Return a time as text with three significant digits and a unit, or a dash for None.
+    """Return a time as text with three significant digits and a unit. If ``time`` is None, return a dash.
 
-    The argument is in seconds.
+    ``time`` is in seconds.
 
     >>> duration(1.234e-5), duration(None)
     ('12.3 µs', '–')

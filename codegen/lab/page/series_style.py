@@ -65,7 +65,8 @@ class Style:
 def numbered(place: int) -> Style:
     """Return the style of a curve of a figure. The curves are numbered from 0.
 
-    Colours, markers and dashes are repeated after COLOURS, len(MARKERS) and len(DASHES) curves.
+    The colours repeat after :data:`COLOURS` curves. The markers and the dash patterns repeat in the same way
+    after len(MARKERS) curves and len(DASHES) curves.
     """
     colour = f"var(--series-{place % COLOURS + 1})"
     return Style(colour, MARKERS[place % len(MARKERS)], DASHES[place % len(DASHES)])
@@ -142,8 +143,8 @@ def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Pla
 
     ``used`` and ``taken`` contain pairs (colour, marker). The function chooses the colour first, then the
     marker. If several markers occur least often, the function prefers a marker that forms a new pair with
-    the colour. A pair is new if it is neither in ``used`` nor in ``taken``. If the choice is still open, the
-    number ``first`` determines it.
+    the colour. A pair is new if it is neither in ``used`` nor in ``taken``. If several colours or markers
+    remain, the function takes the first one in cyclic order. ``first`` determines where this order begins.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -2,8 +2,8 @@
 
 Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables, which
 have different values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers
-in the SVG are hashes of the data and of the name of the figure. Therefore the same data and the same name
-always give the same SVG. Two figures with different names have different identifiers.
+in the SVG are hashes of the drawn shapes and the name of the figure. Therefore the same figure with the same
+name always gives the same SVG. Figures with different names have different identifiers.
 
 The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
 attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
@@ -32,7 +32,7 @@ INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
 PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "var(--paper)": "#010a04"} | {
     f"var(--series-{k})": f"#010b{k:02x}" for k in range(1, COLOURS + 1)
 }
-"""Maps each CSS variable of the page to the placeholder colour that Matplotlib draws with."""
+"""Maps each CSS variable for a colour to the placeholder colour in the Matplotlib figure."""
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
@@ -118,9 +118,9 @@ def svg_element(figure: Figure, text: Text) -> Markup:
 def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
     """Return the SVG element ``drawn`` with the attributes that the script of the page uses.
 
-    The function replaces the identifier ``series:k`` of the curve with the number k by the attribute
-    ``data-series``. It replaces the identifier ``key:k`` of the legend entry by the attribute ``data-key``.
-    ``values`` maps the number of a curve to the texts of its markers. The texts are added as titles.
+    For the curve with the number k, ``id="series:k"`` becomes ``data-series="k"``. For the legend entry of
+    the curve, ``id="key:k"`` becomes ``data-key="k"``. ``values`` maps the number of a curve to the texts of
+    its markers. The texts are added as titles.
     """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
@@ -133,7 +133,7 @@ def _with_titles(body: str, values: Sequence[str]) -> str:
     """Add a title to each marker of a curve. The titles are ``values``, in the order of the markers in the
     SVG.
 
-    ``body`` contains the markers of the curve. If markers of the legend follow, they get no title.
+    ``body`` begins with the markers of the curve. Later markers, such as those of the legend, get no title.
     """
     titles = iter(values)
 

@@ -1,10 +1,12 @@
 """Peers: integrators that do not belong to this project, for comparison with emitted code.
 
-A peer integrates the differential equation of a scene in the coordinates of the state. The right-hand side is
-compiled if the library of the peer permits compilation. A peer whose name ends in ``projected`` projects the
-state onto the manifold after each step. There is no such peer for LSODA: this multistep method stores data of
-earlier steps, which a projection of the current state would leave unchanged. The time before the first step,
-such as the time of compilation, is reported separately as set-up time.
+A peer integrates the differential equation of a scene in the coordinates of the state. If the library of the
+peer permits compilation, the right-hand side is compiled. The time before the first step, such as the time of
+compilation, is reported separately as set-up time.
+
+A peer whose name ends in ``projected`` projects the state onto the manifold after each step. The solver LSODA
+has no projected peer. LSODA is a multistep method and stores data of earlier steps. A projection of the
+current state would leave these data unchanged.
 """
 
 from __future__ import annotations
@@ -51,9 +53,9 @@ class Prepared:
     """A peer that is prepared for one scene and for one tolerance or number of steps.
 
     - ``run``: ``run(n)`` integrates over n times the length of the time span. The default of n is 1. If the
-      end is not reached, ``run`` raises :class:`PeerFailed`.
-    - ``idle``: a function that integrates over an empty interval. The time of this call is the
-      overhead of a call of ``run``. ``idle`` is None if the overhead is negligible.
+      integration ends early, ``run`` raises :class:`PeerFailed`.
+    - ``idle``: a function that integrates over an empty interval. The CPU time of ``idle()`` is the
+      overhead of a call of ``run``. If the overhead is negligible, ``idle`` is None.
     """
 
     run: Run
@@ -62,11 +64,10 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Peer:
-    """A peer: an integrator of other software, or a classical integrator in C.
+    """An integrator for comparison. It is part of other software, or it is a classical integrator in C.
 
     - ``controlled``: the quantity that the user chooses, ``"tolerance"`` or ``"steps"`` (number of steps).
-    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the tolerance or the number
-      of steps.
+    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the value of this quantity.
     - ``version``: the name and version of the software.
     - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """
@@ -79,7 +80,7 @@ class Peer:
 
 
 class PeerModule(Protocol):
-    """The interface of the modules of this package, each of which runs one or several peers."""
+    """The interface of a module of this package that runs peers."""
 
     def peer(self, name: str) -> Peer:
         """Return the peer with the given name."""
@@ -96,13 +97,13 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""Maps the name of each peer to the name of its module and the name of the Python package that it needs.
+"""Maps the name of each peer to the name of its module and the name of its Python package.
 
-The module is in ``codegen.lab.peers``. The name of the package is '' if the peer needs no package.
+The module is in ``codegen.lab.peers``. If the peer needs no Python package, the name of the package is ''.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
-"""The tolerances with which peers are run, from loose to tight.
+"""The tolerances for runs of peers, from loose to tight.
 
 The absolute tolerance and the relative tolerance of a run are equal.
 """
@@ -129,10 +130,10 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the named peers in the order of :data:`PEERS`.
+    """Return the peers with the given names, in the order of :data:`PEERS`.
 
-    A name in :data:`GROUPS` selects all installed peers of this group. Raises :class:`UnknownName` for an
-    unknown name, and :class:`InputError` for the name of a peer that is not installed.
+    The name of a group (see :data:`GROUPS`) selects all installed peers of the group. Raises
+    :class:`UnknownName` for an unknown name, and :class:`InputError` for a peer that is not installed.
     """
     chosen: set[str] = set()
     for name in names:
