@@ -51,16 +51,14 @@ ONE_TEST = "If the sum is finite, all values x are finite. If it overflows, each
 
 
 class FunctionPrinter:
-    """Writes the functions of one module in C. ``unit`` contains all records, tables and functions of the
-    module. In C, the names of these objects start with ``prefix``.
-    """
+    """Writes the records, tables and functions of ``unit`` in C. Their names in C start with ``prefix``."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # The function ``written`` follows calls through the whole unit, so its results are stored.
+        # ``written`` searches all called functions, so each result is computed once and stored.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
         self.packed = {f.name: packed(f, self.writes[f.name]) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
@@ -68,7 +66,7 @@ class FunctionPrinter:
     def called(self, name: str, near: bool = False) -> str:
         """Return the name of a function in C.
 
-        If ``near`` is true, this is the name of the variant without branches (:mod:`codegen.run.batch`).
+        If ``near`` is true, return the name of the variant without branches (:mod:`codegen.run.batch`).
         """
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
@@ -78,9 +76,9 @@ class FunctionPrinter:
 
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
-        # Loops over lanes (the systems of a batch) or sites evaluate sines and cosines of small arguments by
-        # polynomials. Scalar functions use the same polynomials for small arguments, so that the roundings
-        # are equal. A module without loops over lanes or sites calls sin and cos of the C library.
+        # Near zero, loops over lanes (the systems of a batch) or sites compute sines and cosines by
+        # polynomials. Scalar functions must have the same rounding errors, so they use the same polynomials.
+        # A module without loops over lanes or sites calls sin and cos of the C library.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -98,7 +96,7 @@ class FunctionPrinter:
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter.
 
-        If ``header`` is true, array sizes have no ``static``, because C++ does not allow the keyword there.
+        If ``header`` is true, array sizes have no ``static``. C++ does not allow ``static`` in array sizes.
         """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
@@ -130,8 +128,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of the head of a function, or of its prototype if ``header`` is true."""
-        # Private functions are static, so that the compiler may inline them. The names start with the
-        # prefix of the module, so that one C file can contain the code of two modules.
+        # Private functions are static, because compilers can inline static functions. All names start with
+        # the prefix of the module, so one C file can contain the code of two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         # A function with many scalar parameters receives them in one array.
@@ -160,7 +158,7 @@ class FunctionPrinter:
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
         start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
-        # Tables are static const, so that compilers can fold their entries into the code.
+        # Tables are static const, so that compilers can replace an entry by its value.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
@@ -181,8 +179,8 @@ class FunctionPrinter:
 
 
 def _without_zeros(row: Sequence[str]) -> str:
-    """Return the text of a row without trailing zeros. C initialises the missing entries to zero."""
-    # The rows of a table are padded with zeros to equal lengths. The padding is not printed.
+    """Return the text of a row. Zeros at the end are omitted, because C sets missing entries to zero."""
+    # Zeros at the end of a row are padding, because all rows must have the same length.
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
         kept.pop()
@@ -207,8 +205,7 @@ class _Body:
     def lines(self) -> list[str]:
         """Return the lines of the body of the function."""
         whole = statements(self.function.body)
-        # ``whole`` includes the statements inside loops and branches. ``direct`` returns the terms of a
-        # single statement.
+        # The list ``whole`` also contains the statements inside loops and branches.
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
@@ -217,27 +214,25 @@ class _Body:
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
         real, given = self.printer.real, self.printer.packed[self.function.name]
-        # The packed parameters become local constants, so the body reads them by name.
+        # Each packed parameter is copied to a local constant with the name of the parameter.
         loads = [f"const {real} {self.identifiers.of(p)} = {PACKED}[{k}];" for k, p in enumerate(given)]
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of the statements ``body``. Many consecutive short statements share lines."""
+        """Return the lines of ``body``. More than MANY consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
-            # A declaration has a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
             # Statements with sums do not share lines, because several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            # Declarations and statements keep their order. Only the line breaks change.
+            # Declarations precede the statement. Each declaration ends a group of short statements.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars. If each copy had its own line, the copies
-            # would fill several pages.
+            # Kernels with many unknowns copy hundreds of scalars. Shared lines make the code shorter.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -246,8 +241,8 @@ class _Body:
 
         One declaration contains several variables if they are consecutive and have the same type.
         """
-        # A variable that is assigned inside a loop or branch may be read after the end of the loop or branch.
-        # Such a variable is declared before the loop or branch.
+        # In C, a variable that is declared inside a loop or branch exists only there. If later statements
+        # read a variable, its declaration precedes the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -286,15 +281,15 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield directives that allow a compiler to reorder the iterations of the loop that follows."""
-        # The macro INDEPENDENT is a pragma that allows vector instructions. For compilers other than gcc and
-        # clang it is empty.
+        """Yield the directives that precede a loop: for vector instructions and for OpenMP."""
+        # The macro INDEPENDENT allows gcc and clang to use vector instructions. For other compilers the macro
+        # is empty.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
             clauses = []
-            # An OpenMP clause contains all variables with the same operation. ``dict.fromkeys`` removes
-            # repeated operations and keeps their order.
+            # One OpenMP clause lists all variables that are reduced by the same operation.
+            # ``dict.fromkeys`` removes repetitions and keeps the order.
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
@@ -312,14 +307,14 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A test whether several numbers are finite, or the negation of this test, is printed with a comment.
+        # A comment precedes a test whether several numbers are finite. The test may be negated.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # If declarations must precede the ``if`` in the else part, ``else if`` is not possible.
+        # ``else if`` leaves no place for declarations before the second ``if``.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             # The first line of the ``if`` statement in the else part follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
@@ -345,14 +340,13 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the C type of ``target``, with ``const`` if the target is assigned only once.
+        """Return the C type of ``target`` if the statement declares ``target``, else an empty text.
 
-        If the statement does not declare the target, the result is an empty text.
+        If ``target`` is assigned only once, the type starts with ``const``.
         """
-        # If the target is an entry of an array, no declaration is needed, because the array is declared.
+        # An array is declared as a whole, so an assignment to one entry declares nothing.
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # Equal statements may differ in what they declare, so the keys of ``declared.by`` are ids.
-        # If this statement does not declare the target, ``constant`` is None.
+        # Two equal statements may declare different variables, so the keys of ``declared.by`` are ids.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -366,7 +360,7 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
-            # ``memset`` sets all bytes to zero. Integers and IEEE numbers with zero bytes have the value 0.
+            # ``memset`` sets all bytes to zero. Integers and IEEE numbers are then 0.
             yield f"memset({record});"
             return
         if target.shape:
@@ -375,7 +369,7 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # ``x = x + y`` is printed as ``x += y``. This keeps the order of the operands.
+        # ``x = x + y`` is printed as ``x += y``.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         # C does not allow ``+=`` in a declaration.
         if changed and not kind:
@@ -421,7 +415,7 @@ class _Body:
             return
         entries = [self.terms.line(x) for x in statement.values]
         segments = closed("{", (*(f"{x}," for x in entries[:-1]), entries[-1]), "}")
-        # An array with given values is never changed, so it is const.
+        # An array that is declared with values is a constant.
         yield from fill(f"const {kind} {identifier}{size} =", segments, ";")
 
     def argument(self, term: Term) -> str:
@@ -460,25 +454,25 @@ class _Body:
             return
         if results:
             (target,) = results
-            # A single result is returned by value. If the statement declares ``target``, ``kind`` returns
-            # the type of ``target``.
+            # A single result is the return value of the C function. If the statement declares ``target``, the
+            # line starts with a type.
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
 
     def packed_call(self, start: str, name: str, given: Sequence[str]) -> Iterator[str]:
-        """Yield the lines of a call with its scalar arguments in one array."""
+        """Yield the lines of a call of a function that receives scalars in one array."""
         together = self.printer.packed[name]
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
-        # ``given`` ends with pointers to the results, which have no entry in ``parameters``.
+        # After the arguments for ``parameters``, the list ``given`` contains pointers to the results.
         others += given[len(parameters) :]
-        # If the values are the first entries of an array, this array is passed without a copy.
+        # An existing array that begins with ``values`` is passed without a copy.
         array = whole(values, others)
         if array:
             yield from fill(start, _arguments([array, *others]), ";", separator="")
             return
-        # The braces end the lifetime of the array, so the arrays of several calls can share stack memory.
+        # The array exists only inside the braces, so the arrays of several calls can share stack memory.
         entries = closed("{", (*(f"{x}," for x in values[:-1]), values[-1]), "}")
         yield "{"
         yield from (f"    {x}" for x in fill(f"const {self.printer.real} {PACKED}[] =", entries, ";"))

@@ -1,4 +1,4 @@
-"""The interface of a C module for a lattice: an example and declarations for cffi."""
+"""Prints the example program and the cffi declarations of a C module for a lattice."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    # The number of sites is side^n. For n > 3, the side has 8 sites.
+    # The lattice has n dimensions and side^n sites. If n > 3, ``side`` is 8.
     side = SIDES.get(n, 8)
     total = side**n
     arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]
@@ -59,7 +59,7 @@ def lattice_prototypes(interface: Interface) -> str:
     """Return declarations of a lattice module's functions in the form that cffi reads."""
     prefix, real = interface.prefix, interface.format.c_type
     time = f"{real} t, " if interface.time else ""
-    # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
+    # Names of parameters may be keywords of C, so the declarations contain p0, p1, ... instead.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     return (
         f"size_t {prefix}workspace(const size_t *shape);\n"

@@ -61,8 +61,7 @@ OWN = RESERVED | frozenset(
         "CMPLX",
     ]
 )
-"""Names that the parameters of a scene must not have in the emitted code: keywords of C and names that the
-module uses."""
+"""Reserved names of C and names that the module uses. Parameters of a scene get other names."""
 
 POINTS = 128
 """The number of grid points in the usage example."""
@@ -73,7 +72,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # In the template, f0, f1, ... are factors of coefficients, and value1, ... are values of the function N.
+    # In the template, f0, f1, ... are functions of z, and value1, ... are values of N or coefficients.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
     # At the grid points, array0, ... are derivatives of the state u, and term0, ... are the terms of N.
@@ -116,10 +115,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The workspace contains the spectra of the old state, the new state, the argument of the nonlinear
-        # part N, and temporary results. It also contains one spectrum for each evaluation of N.
+        # The workspace contains one spectrum for each evaluation of the nonlinear part N, and four others: of
+        # the old state, of the new state, of the argument of N, and of a temporary result.
         "spectra": 4 + len(step.evaluations),
-        # Derivatives of u in N and terms of N are evaluated at the grid points. Each of them needs an array.
+        # At the grid points, each derivative of u in N and each term of N needs an array.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -131,7 +130,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the kernels that depend on the wave number or on the space coordinate.
+    """Return the names of the formulas that depend on the wave number or on the space coordinate.
 
     - The result contains ``symbol`` if the Fourier symbol of the linear part depends on the wave number.
     - The result contains ``initial`` if the initial state depends on the space coordinate.
@@ -150,7 +149,7 @@ def _terms(write: ModeFormulas, terms: tuple[Term, ...]) -> list[tuple[str, int 
 
 
 def _usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example program, which integrates from the initial state of the scene."""
+    """Return the lines of an example program. The program starts from the initial state of the scene."""
     prefix = interface.prefix
 
     def number(x: float) -> str:

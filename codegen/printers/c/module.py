@@ -37,27 +37,29 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# By default gcc assumes that a program observes floating-point exceptions. gcc 12 on x86-64 without AVX-512
-# then does not vectorise loops that select one of two values. -fno-trapping-math removes this assumption.
+# By default gcc assumes that a program observes floating-point exceptions. With this assumption, gcc 12 on
+# x86-64 without AVX-512 does not vectorise loops that select one of two values. -fno-trapping-math removes
+# the assumption.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Additional flags for modules that integrate a batch of systems or a lattice.
 
-Together with -ffp-contract=off, these flags do not change results.
+If -ffp-contract=off is also set, these flags do not change the computed numbers.
 """
 
 FRAMES = 640
-"""The number of bytes in the stack bound for return addresses, saved registers and calls of helper functions.
+"""The memory, in bytes, for return addresses, saved registers and calls of helper functions.
 
-The stack bound is an upper bound on the stack that one call of an emitted function needs (:func:`stack`).
+This memory is a part of the stack bound. The stack bound is an upper bound on the stack memory of one call of
+an emitted function (:func:`stack`).
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The stack bound contains this number of bytes for each floating-point number of a step.
+"""The numbers of bytes in the stack bound for one floating-point number of a step.
 
 ``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. Steps that solve
-equations need more space: an optimiser moves common subexpressions out of the loop and stores their values.
-The measured space of these steps was at most 8.8 bytes for each number in double precision, and at most 8.0
-bytes in single precision.
+equations need more memory, because an optimiser moves common subexpressions out of the loop and stores their
+values. In measurements, these steps needed at most 8.8 bytes for each number in double precision, and at most
+8.0 bytes in single precision.
 
 Both constants are also used in single precision, because an optimiser stores pairs of floats in registers of
 16 bytes. Each float then needs 8 bytes.
@@ -82,11 +84,11 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # If ``sweeps`` is true, C compilers inline the Stumpff functions. Loops that solve equations call
-        # these functions often. Other code would only become longer.
+        # A step that solves equations calls Stumpff functions often. ``sweeps`` makes all these functions
+        # inline.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
-        # Some C11 compilers have no arrays of variable size, so ``invert`` has room for the largest matrix.
+        # Arrays of variable size are optional in C11, so the arrays in ``invert`` have ``widest`` entries.
         widest=max(inverted_sizes(kernel), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
@@ -123,7 +125,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # ``head`` also prints the first lines of the definitions, so definitions and prototypes agree.
+        # The definitions also use ``head``, so each prototype agrees with its definition.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -131,7 +133,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 
 def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
-    """Return the texts of the header and of the source."""
+    """Return the texts of PREFIX.h and PREFIX.c. The templates use ``variables``."""
     env = environment("c")
     # The functions of a lattice module have special parameters, such as ``shape``. Therefore the header of a
     # lattice module has a separate template.
@@ -150,8 +152,8 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # A step calls a function for its inputs. If the inputs are constant, the step calls the function
-        # ``hold``, which copies the values to which ``context`` points.
+        # A step calls a function that sets the inputs. The function ``hold`` sets constant inputs. For this
+        # purpose, ``hold`` copies the array ``context``.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -177,8 +179,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helpers and library functions that a module calls."""
-    # A module with loops over lanes (systems of a batch) or sites has special helpers for sin, cos and the
-    # Stumpff functions, such as ``sin_near``.
+    # A module with loops over lanes (systems of a batch) or sites calls special helpers, such as
+    # ``sin_near``, instead of sin, cos and the Stumpff functions.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -194,10 +196,9 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the helpers that are called in a module with loops over lanes or sites.
+    """Return the names of the helpers that a module with loops over lanes or sites calls.
 
-    A lane is one system of a batch. For a function with special helpers, such as ``sin``, the result contains
-    the name of the helper that is called, such as ``sin_near``.
+    A lane is one system of a batch. Instead of ``sin``, for example, the result contains ``sin_near``.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -220,27 +221,26 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 def inverted(kernel: Kernel) -> int:
     """Return the number of rows of the matrices that a step inverts by elimination.
 
-    The result is 0 if there are no such matrices, if their sizes differ, or if they have more than
-    :data:`~codegen.run.sweeps.WIDE` rows.
+    The result is 0 if the step inverts no matrix, or matrices of different sizes. The result is also 0 if a
+    matrix has more than :data:`~codegen.run.sweeps.WIDE` rows.
     """
     sizes = inverted_sizes(kernel)
-    # If the result is not 0, the inner loop of the emitted function ``invert`` is unrolled.
+    # If all matrices have the same small size, the inner loop of the emitted ``invert`` is unrolled.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a text with an upper bound on the stack that one call of an emitted function needs.
+    """Return a text with an upper bound on the stack memory of one call of an emitted function.
 
-    The bound is the sum of three numbers: the space for all numbers of a step, the space for stack frames
+    The bound is the sum of three parts: the memory for all numbers of a step, the memory for stack frames
     (:data:`FRAMES`), and a margin. Without optimisation (-O0), a call needs about the sum of the first two
-    numbers. Tests compare the bound with measured stacks.
+    parts. Tests compare the bound with measured values.
 
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # If the step inverts matrices, the local variables of the emitted function ``invert`` need additional
-    # FRAMES / 2 bytes. If the kernel is inlined in the function ``run``, the kernel has no stack frame, so
-    # FRAMES / 2 bytes are subtracted.
+    # The local variables of the emitted function ``invert`` need FRAMES / 2 more bytes. A kernel that is
+    # inlined in the function ``run`` has no stack frame and needs FRAMES / 2 bytes less.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -266,14 +266,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
-    """Return the names that the printer itself uses. Variables of emitted functions get other names."""
+    """Return the names that variables of emitted functions must not have."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all helpers are reserved, even if the module calls only some of the helpers. Thus the names
-    # of variables do not depend on which helpers the module calls.
+    # The names of all helpers are reserved. Thus a variable keeps its name if the module calls other helpers.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -286,10 +285,10 @@ def prototypes(interface: Interface) -> str:
     real = interface.format.c_type
     # The declarations must agree with the emitted header, argument by argument.
     time = f"{real} t, " if interface.time else ""
-    # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
+    # Names of parameters may be keywords of C, so the declarations contain p0, p1, ... instead.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
-    # The emitted record ``statistics`` has the field ``matrices`` only if Newton's method is used.
+    # With Newton's method, the emitted record ``statistics`` also has the field ``matrices``.
     matrices = "size_t matrices; " if interface.newton else ""
     fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
     record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
@@ -326,9 +325,8 @@ def prototypes(interface: Interface) -> str:
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
     """Return the declaration of the function ``integrate``, which integrates to a given end time.
 
-    If the module has no function ``integrate``, the result is an empty text. ``passed`` is the declaration of
-    the arguments for the parameters and inputs of the scene, and ``statistics`` is the declaration of the
-    argument for the statistics.
+    If the module has no function ``integrate``, the result is an empty text. ``passed`` declares the
+    parameters and the inputs of the scene. ``statistics`` declares the argument for the statistics.
     """
     if not interface.integrated:
         return ""
@@ -344,7 +342,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
     )
     outputs = f"const {real} *times, size_t count, {real} *rows, size_t *written, "
-    # Without step control no step is rejected, so only the number of completed steps is returned.
+    # Without step control no step is rejected, so one argument for the number of steps is enough.
     last = "size_t *accepted, size_t *rejected" if interface.controlled else "size_t *completed"
     return (event if interface.events else "") + (
         f"int {prefix}integrate({real} *state, {chosen}size_t limit, {passed}{outputs}"
@@ -353,7 +351,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return the lines of a C function for the usage example. It sets all run-time inputs to zero."""
+    """Return the lines of a C function that sets all run-time inputs to zero in the usage example."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
@@ -373,7 +371,7 @@ def example(interface: Interface, recipe: Recipe) -> list[str]:
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example program, which integrates from the initial state of the scene."""
+    """Return the lines of an example program. The program starts from the initial state of the scene."""
     real = interface.format
     # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"
