@@ -165,14 +165,16 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 
 
 def array_functions(
-    scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
+    scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None, swept: Sequence[str] = ()
 ) -> dict[str, ArrayFunction]:
     """Return a dictionary of functions that evaluate quantities at many states (:data:`ArrayFunction`).
 
     The keys are the names of the quantities. ``kept`` maps the name of a quantity to its expressions. By
     default it contains the conserved quantities of the scene. The functions return infinity in place of
-    values that are not finite.
+    values that are not finite. ``swept`` lists symbols other than the coordinates. Their values are further
+    rows of the array of states.
     """
+    symbols = (*scene.symbols, *swept)
 
     def vectorised(f: Evaluate) -> ArrayFunction:
         def evaluate(y: numpy.ndarray, t: numpy.ndarray) -> numpy.ndarray:
@@ -183,7 +185,7 @@ def array_functions(
         return evaluate
 
     return {
-        name: vectorised(straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS))
+        name: vectorised(straight_line(scene.name, symbols, exprs).python(float, FUNCTIONS))
         for name, exprs in (expressions(scene) if kept is None else kept).items()
     }
 

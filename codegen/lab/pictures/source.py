@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy
@@ -128,9 +128,15 @@ class Source:
 
         Each row of the result contains the values of one quantity.
         """
-        path = self.path(run)
-        times = path.times if run.sweep is None else numpy.zeros(len(path.times))
-        return formulas(self.problem_of(run), quantities)(path.states.T, times)
+        path, problem, rows = self.path(run), self.problem_of(run), self.path(run).states.T
+        if run.sweep is None:
+            return formulas(problem, quantities)(rows, path.times)
+        # The states are final states, and ``path.times`` contains the values of the sweep.
+        values, first = path.times, self.integrator(run).span[0]
+        if run.sweep.name == STEP:
+            return formulas(problem, quantities)(rows, first + values * run.steps)
+        end = numpy.full(len(values), first + run.h * run.steps)
+        return formulas(problem, quantities, run.sweep.name)(numpy.vstack([rows, values]), end)
 
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
         """Return the values of a quantity along the reference run, at the output times of ``run``.
@@ -151,16 +157,20 @@ class Source:
         return row
 
 
-def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
+def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") -> ArrayFunction:
     """Return a function that evaluates quantities of a scene at many states.
 
     A quantity is a formula or the name of an invariant. The returned function has the arguments ``states``
     and ``times``, which are arrays. Each row of ``states`` contains the values of one coordinate. Each row of
-    the result contains the values of one quantity. :class:`codegen.errors.SceneError` is raised for a formula
-    with an unknown symbol.
+    the result contains the values of one quantity. ``swept`` is the name of a parameter that differs from
+    state to state. Its values are the last row of ``states``. :class:`codegen.errors.SceneError` is raised
+    for a formula with an unknown symbol.
     """
     import sympy
 
+    names = (swept,) if swept else ()
+    # A run-time parameter stays a symbol in the formulas.
+    problem = replace(problem, runtime=(*problem.runtime, *names))
     reader = Reader(problem.name, [sympy.Symbol(s) for s in problem.symbols])
     domain = ExprDomain(reader.space)
     state = tuple(reader.space.sym(s) for s in problem.symbols)
@@ -173,7 +183,7 @@ def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
         value: Expr = evaluate([reader.scalar(quantity, "the formula of a figure")], domain, known)[0]
         return value
 
-    return array_functions(problem, {"": tuple(map(root, quantities))})[""]
+    return array_functions(problem, {"": tuple(map(root, quantities))}, names)[""]
 
 
 def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:

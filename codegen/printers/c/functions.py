@@ -182,7 +182,7 @@ def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row. Zeros at the end are omitted, because C sets missing entries to zero."""
     # Zeros at the end of a row are padding, because all rows must have the same length.
     kept = list(row)
-    while len(kept) > 1 and kept[-1].startswith("0.0"):
+    while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
         kept.pop()
     return ", ".join(kept)
 

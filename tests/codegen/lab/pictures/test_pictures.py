@@ -23,6 +23,7 @@ from codegen.lab.pictures.source import Source, formulas
 from codegen.lab.pictures.sphere import projection
 from codegen.lab.reference import cached_reference
 from codegen.loader import load_lattice
+from codegen.scene import param
 from codegen.scene.figure import (
     Deviation,
     Figure,
@@ -152,7 +153,7 @@ def test_a_reference_with_other_times_is_refused(source):
         difference=True,
         reference=Run("rkmk(2):rk4", 0.05, 40),
     )
-    with pytest.raises(SceneError, match="other output times"):
+    with pytest.raises(SceneError, match="different output times"):
         draw(figure, source)
 
 
@@ -175,6 +176,18 @@ def test_a_sweep_of_the_step_size_makes_one_step_of_each_size(source):
     integrator = source.integrator(run)
     ends = [list(integrator.step(integrator.initial, h)) for h in (0.0, 1.0, 2.0)]
     assert source.path(run).states.tolist() == ends
+
+
+def test_quantities_of_a_sweep_use_the_end_time_and_the_value_of_the_parameter(source):
+    t, alpha = Symbol("t"), param("alpha", 0)
+    swept = Run("rkmk(0):euler", 0.5, 4, sweep=Sweep("alpha", 0.0, 4.0, 3))
+    found = source.values(swept, [t, alpha, M[0] + t * alpha])
+    assert found[0].tolist() == [2.0, 2.0, 2.0]
+    assert found[1].tolist() == [0.0, 2.0, 4.0]
+    ends = [source.end(swept, value)[0] + 2 * value for value in (0.0, 2.0, 4.0)]
+    assert found[2].tolist() == ends
+    steps = Run("rkmk(0):euler", 0.0, 3, sweep=Sweep("h", 0.0, 2.0, 3))
+    assert source.values(steps, [t, alpha]).tolist() == [[0.0, 3.0, 6.0], [0.0, 0.0, 0.0]]
 
 
 def test_the_errors_of_a_figure_of_orders_have_the_order_of_the_method(source):
