@@ -10,7 +10,7 @@ All modules use these conventions.
 
 *Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the equation
 is y' = f(y).y, where f maps the manifold M to the Lie algebra g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 with
-weights b_i and stage values k_i, **the first stage acts first**: the first stage is the rightmost factor. For
+weights b_i and stage values k_i, **the first stage acts first**, so stage 1 is the rightmost factor. For
 a right action, every bracket in a method has the opposite sign.
 
 *Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map Ad_g
@@ -30,8 +30,8 @@ with respect to q and mu. The equations of motion are q' = xi.q and mu' = n - ad
 *Symplectic partitioned tableaux.* The second tableau has the weights bhat = b and the entries ahat_ij = b_j -
 b_j a_ji/b_i. This formula requires b_i != 0. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
-*Order.* A method has order p when its series agrees with the series of the exact flow up to and including
-h^p. In a word t_1 ... t_k, the letter t_1 acts first.
+*Order.* A method has order p when its series agrees with the series of the exact flow through the power h^p.
+A word t_1 ... t_k is a sequence of letters, for example of trees. The letter t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)

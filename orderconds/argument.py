@@ -15,7 +15,7 @@ Bounds = tuple[int, int]
 CONDITION_ORDER = (1, 20)
 """The least and the largest order whose conditions can be derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The least and the largest number of stages for which the sums in a condition are expanded."""
+"""The least and the largest number of stages for conditions with expanded sums."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
@@ -23,7 +23,8 @@ DIGITS = (10, 1000)
 TOLERANCE = (0, 2**40)
 """The least and the largest value of the argument ``tolerance``.
 
-The tolerance is the uncertainty of a coefficient x that is given as a double, in units of 2^-53 max(1, |x|).
+The tolerance is the uncertainty of coefficients that are doubles. The unit for a coefficient x is
+2^-53 max(1, |x|).
 """
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
@@ -85,9 +86,9 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):
-    orderconds.errors.InputError: fix: 'a21=1' of type str; expected a list of texts such as ["a21=1/2"]
+    orderconds.errors.InputError: fix: 'a21=1' of type str; expected a list of strings such as ["a21=1/2"]
     """
-    expected = f'a list of texts such as ["{example}"]'
+    expected = f'a list of strings such as ["{example}"]'
     if isinstance(x, str | bytes | Mapping) or not isinstance(x, Iterable):
         raise InputError(described(x), where=name, expected=expected)
     return tuple(text(entry, name, expected) for entry in x)
@@ -95,8 +96,7 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Replace names of options, such as ``--fix``, by names of arguments, such as ``fix``. The replacement
-    applies to the messages of the InputErrors that the ``with`` block raises.
+    """In the InputErrors of a ``with`` block, replace option names such as ``--fix`` by argument names.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")
@@ -117,8 +117,8 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
 
-    An integer is described by its value. Other numbers and strings are described by value and type. All other
-    objects are described by their type.
+    The text for an integer is its value. The text for a string, a double, a complex number or a bool contains
+    value and type. The text for all other objects contains only their type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

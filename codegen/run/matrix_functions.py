@@ -59,7 +59,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 
 
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
-    """Return the vector functions (such as matrix exponentials) that ``functions`` call, sorted by name."""
+    """Return the matrix exponentials and other vector functions that ``functions`` call."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
     # The names are sorted, so that the emitted functions always have the same order.
     functions_called = map(vector_function, sorted(called))
@@ -67,8 +67,10 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions that compute the given vector functions (such as matrix exponentials).
-    Each emitted function comes after the functions that it calls."""
+    """Return the emitted functions that compute ``functions``, for example a matrix exponential.
+
+    Each emitted function comes after the functions that it calls.
+    """
     listed: dict[str, Function] = {}
     for function in functions:
         match function:
@@ -85,14 +87,13 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Several exponentials may call the same function for the norm. The dictionary ``listed`` contains
-        # this function only once.
+        # Exponentials of equal size use the same norm function. The dictionary keeps one copy.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return a tuple with the table of the coefficients 1/k!. It is empty if no function needs the table."""
+    """Return a tuple with the table of the coefficients 1/k!, or () if no function needs this table."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -100,7 +101,7 @@ def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> 
 
 
 def _coefficient() -> Term:
-    """Return the term for the table of the coefficients 1/k! with k = 0, ..., DEGREES[-1]."""
+    """Return the array of the coefficients 1/k! up to the highest degree of the Taylor polynomials."""
     return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
@@ -128,8 +129,10 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of matrix number ``part`` of a jet. Number 0 is the matrix itself. All further
-        matrices of the jet are derivatives."""
+        """Return an entry of one matrix in a jet. The index of this matrix is ``part``.
+
+        Index 0 selects the matrix itself. All other indices select derivatives.
+        """
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
@@ -165,11 +168,11 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute one entry in the product of the jets ``a`` and ``b``.
+        """Return the statements that compute ``entry``, an entry of the product of the jets ``a`` and ``b``.
 
-        ``entry`` is an entry of matrix number ``part`` of the product. Let a_p be matrix number p of ``a``,
-        and let b_q be matrix number q of ``b``. Matrix number ``part`` of the product is the sum of a_p b_q
-        over all pairs (p, q) in ``factors``.
+        The entry belongs to the matrix with the index ``part`` in the product. This matrix is the sum of the
+        products a_p b_q over all pairs (p, q) in ``factors``. Here a_p is matrix p of ``a``, and b_q is
+        matrix q of ``b``.
         """
 
         def terms(k: Term) -> list[Term]:
@@ -188,7 +191,7 @@ class _Exponential:
     def _exponential(self) -> Function:
         a, result, work = real("a", self.size), real("result", self.size), real("work", self.size)
         powers = tuple(real(f"power_{k}", self.size) for k in (1, 2, 3, 4))
-        # Up to the norm ``least``, the Taylor polynomial of degree 16 is accurate enough.
+        # If the norm of a matrix is at most ``least``, the Taylor polynomial of degree 16 is accurate enough.
         scale, norm, least = real("scale"), real("norm"), self.norms[-1]
         squarings, growth = count("squarings"), real("growth")
         bits = self.precision.bits
@@ -198,8 +201,8 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # ``bits`` is the number of bits of the significand. After more than ``bits`` squarings,
-                # rounding errors would leave no correct digit.
+                # ``bits`` is the number of bits of the significand. It also limits the number of squarings,
+                # because further squarings would leave no correct digit.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
@@ -215,7 +218,7 @@ class _Exponential:
                     *self._squared(result, work, squarings, growth),
                 ),
             ),
-            # If the scaled norm is above ``least``, the Taylor polynomial is not accurate enough.
+            # If the scaled norm exceeds ``least``, the Taylor polynomial is too inaccurate.
             If(norm > least, (_is_lost(result),)),
         ]
         return Function(self.name, self._about(), (a, result), tuple(body))
@@ -232,32 +235,31 @@ class _Exponential:
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
-        """Return the statements that evaluate a Taylor polynomial of the exponential.
+        """Return the statements that evaluate a Taylor polynomial of exp at the jet ``powers[0]``.
 
-        ``norm`` is the norm of the matrix. The degree is 4, 8, 12 or 16. The lowest degree is chosen for
-        which the remainder is smaller than the rounding errors.
+        The statements choose the degree 4, 8, 12 or 16 from ``norm``, the norm of the matrix. They choose the
+        lowest degree whose truncation error is smaller than the rounding errors.
         """
-        # This is the method of Paterson and Stockmeyer for a polynomial of degree 4 g in a matrix b. The
-        # powers b^2, b^3 and b^4 need three products of matrices. Four successive terms are a group. Horner's
-        # rule with the factor b^4 combines the g groups, and needs g - 1 more products.
+        # This is the method of Paterson and Stockmeyer for a polynomial in b = ``powers[0]``. Its degree is
+        # 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products. The terms are
+        # divided into g groups of four. Horner's rule in b^4 combines the groups with g - 1 more products.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # The polynomial of degree 4 is accurate enough for norms up to ``first``. The limit is ``second`` for
-        # degree 8, and ``third`` for degree 12. For all larger norms the degree is 16.
+        # The names ``first``, ``second`` and ``third`` denote the largest norms for the degrees 4, 8 and 12.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
-        # Horner's rule begins with b^4 times the coefficient of the highest degree 4 g.
+        # Horner's rule begins with the term b^4/(4 g)!.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
-            # The terms of high degree are usually small. They are added first, because this order keeps
-            # rounding errors small.
+            # The sum begins with the terms of high degree. These terms are usually small, so the rounding
+            # errors stay small.
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
-            # The coefficient ``c[base]`` multiplies the unit matrix, so it is added to the diagonal entries.
+            # The coefficient ``c[base]`` multiplies the unit matrix, so only diagonal entries change.
             diagonal = result[(self.n + 1) * _ROW]
             return (
                 For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
@@ -266,8 +268,8 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop runs from the highest group to the lowest. For each group except the highest, the
-                # previous result is multiplied by b^4.
+                # The loop begins with the group of the highest degree. In all later groups, the result of
+                # the previous group is multiplied by b^4.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -283,16 +285,15 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that compute ``growth``, an upper bound of the norm of exp(``scale`` a).
-
-        The norm is the spectral norm.
-        """
-        # Let mu be the largest eigenvalue of the symmetric part of ``a``, that is, the logarithmic norm. The
-        # spectral norm of exp(``a``) is at most exp(mu). By Gershgorin's theorem, mu is at most ``largest``.
+        """Return the statements that compute ``growth``. It bounds the spectral norm of exp(scale a)."""
+        # Let mu be the logarithmic norm of ``a``, the largest eigenvalue of its symmetric part. The spectral
+        # norm of exp(``a``) is at most exp(mu). Gershgorin's theorem gives the upper bound ``largest`` of mu.
+        # For each row of the symmetric part, the diagonal entry and the absolute values of all other entries
+        # are added. The largest sum is ``largest``.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
-            # The diagonal entry keeps its sign, because a negative entry makes the bound smaller.
+            # The sum contains the diagonal entry itself, and not its absolute value.
             Assign(sums, a[(self.n + 1) * _ROW]),
             For(_COLUMN, whole(self.n), (If(_COLUMN.differs(_ROW), (Assign(sums, sums + off),)),)),
             Assign(largest, select(sums > largest, sums, largest)),
@@ -308,10 +309,10 @@ class _Exponential:
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the jet ``result`` repeatedly.
+        """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        The statements also compute a bound of the error. If this bound exceeds 2^-LEAST_DIGITS times the norm
-        of ``result``, all entries become NaN.
+        The statements also compute a bound of the error of the matrix in ``result``. If the relative error
+        may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
@@ -320,8 +321,8 @@ class _Exponential:
             # The spectral norm of the matrix is at most its Frobenius norm, and at most ``growth``. The
             # smaller of these two bounds is used.
             Assign(bound, select(bound < growth, bound, growth)),
-            # Let r be a bound of the norm of an n x n matrix, e the norm of its error, and u the unit
-            # roundoff. The error of the computed square has a norm of at most about 2 r e + n^2 u r^2.
+            # Let r and e be bounds of the norms of an n x n matrix and of its error. Let u be the unit
+            # roundoff. Then 2 r e + n^2 u r^2 is an approximate bound for the error of the computed square.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
             # If the norm of a matrix is at most ``growth``, the norm of its square is at most ``growth``^2.
             Assign(growth, growth * growth),
@@ -330,7 +331,7 @@ class _Exponential:
             Assign(result, work),
         )
         return [
-            # The initial value is a bound of the error of the Taylor polynomial, before the first squaring.
+            # The initial value bounds the error of the Taylor polynomial.
             Assign(error, number((n + 8) * unit * n)),
             For(_TERM, squarings, body),
             self.norm(result, bound),
@@ -363,14 +364,14 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
-    # ``row`` is the index of entry j of the pivot row k, and ``at`` is the index of the pivot.
+    # Row k is the pivot row. Entry j of this row has the index ``row``, and the pivot has the index ``at``.
     row, at = n * k + j, n * k + k
-    # The pivot is the largest entry of column k in absolute value, on or below the diagonal. This choice
-    # keeps rounding errors small.
+    # Of the entries of column k on and below the diagonal, the pivot has the largest absolute value. This
+    # choice keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. The elimination makes the entries of column k zero, except the pivot.
-    # These zeros need not be stored, so the column is used for entries of the inverse.
+    # The inverse overwrites the matrix. Step k of the elimination makes all entries of column k zero except
+    # the pivot. The zeros are not stored. Instead, column k stores entries of the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -384,12 +385,12 @@ def _inverse(function: MatrixInverse) -> Function:
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
-        # The inverse needs the reciprocal of the pivot in the place of the pivot.
+        # The pivot is replaced by its reciprocal, an entry of the inverse.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )
-    # If rows i and j of a matrix are exchanged, columns i and j of its inverse are exchanged. The elimination
-    # has exchanged rows, so now columns of the result are exchanged. The last exchange is undone first.
+    # An exchange of two rows of a matrix exchanges the same two columns of its inverse. Therefore columns of
+    # the result are exchanged here, in the reverse order of the row exchanges.
     swapped = (
         Assign(kept, b[n * i + k]),
         Assign(b[n * i + k], b[n * i + order[k]]),

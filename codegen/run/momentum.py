@@ -5,7 +5,7 @@ the momentum is converted at the beginning of the run. At the end of the run, th
 momentum is computed and added to the initial momentum.
 
 Rounding makes the group element q slightly non-orthogonal, so each conversion has an error. This error
-affects only the increase, and not the whole momentum.
+affects only the increase, because the initial momentum in the sum is not converted.
 """
 
 from __future__ import annotations
@@ -30,9 +30,10 @@ def momentum_before(plan: Plan) -> Term:
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return four functions: two convert the momentum, one begins a run, and one ends a run.
+    """Return the emitted functions for a run in the body frame.
 
-    The tuple is empty if a run makes its steps in the space frame.
+    Two functions convert the momentum between the frames. The third function begins a run, and the fourth
+    ends a run. If the steps of a run are in the space frame, the tuple is empty.
     """
     carried = plan.kernel.carried
     if carried is None:
@@ -42,7 +43,7 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     # frame.
     momentum = real("momentum", n)
     to_body = filling(
-        # ``carried.inward`` is a separate kernel for the conversion, so it needs a separate plan.
+        # The conversion has its own kernel ``carried.inward``, and each kernel needs a plan.
         Plan(carried.inward, plan.format),
         "to_body",
         "Convert space momentum to body momentum.",
@@ -62,9 +63,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The group element q is the same in both frames, so it is copied.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The initial body momentum is converted back to the space frame. At the end of the run, the final
-        # body momentum is also converted, and ``_leave`` computes the difference of the two results. The
-        # common errors of both conversions cancel.
+        # The initial body momentum is converted back to the space frame. ``_leave`` subtracts the result from
+        # the converted final momentum. In this difference, the errors of the two conversions nearly cancel.
         Call("to_space", (moving, before)),
     )
     about = (
@@ -77,8 +77,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The parentheses are needed. The increase ``momentum[i] - before[i]`` is usually small, so its rounding
-    # error is small.
+    # The parentheses keep the rounding error small: the increase ``momentum[i] - before[i]`` is usually much
+    # smaller than the momentum.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),

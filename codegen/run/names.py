@@ -17,7 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # The words may be a set, whose order differs from run to run. Sorting makes the order reproducible.
+        # ``reserved`` may be a set. The order of a set differs from run to run, so the words are sorted.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -28,7 +28,7 @@ class Names:
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
-        """Choose an identifier for each name that has none yet."""
+        """Choose an identifier for each name without an identifier."""
         for name in names:
             if name not in self.identifiers:
                 self.identifiers[name] = self.fresh(name)
@@ -37,7 +37,7 @@ class Names:
         """Return a new identifier: ``proposal``, or a similar name if ``proposal`` is illegal or in use."""
         # Only ASCII letters are kept, because not every compiler accepts other letters.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
-        # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
+        # C reserves identifiers that begin with two underscores. Python changes these names inside a class.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         # An underscore is appended. An appended number could be mistaken for an index, as in ``xi_1``.

@@ -1,7 +1,7 @@
 """Scenes and problems.
 
-A scene is the differential equation that a user writes. A problem is the form of a scene that the compiler
-evaluates.
+A scene is the description of a differential equation by a user. The compiler converts each scene to a
+problem, its internal form.
 
 A scene file imports the names that it uses from this package, for example
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.

@@ -1,4 +1,7 @@
-"""The ambient equation of a problem: y' = F(y) on R^n, where n is the number of coordinates of the state."""
+"""The ambient equation of a problem: y' = F(y) on R^n in place of the manifold.
+
+Here n is the number of coordinates of the state.
+"""
 
 from __future__ import annotations
 
@@ -14,13 +17,13 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def ambient(problem: Problem) -> Problem:
-    """Return the ambient equation of a problem as a problem on R^n, whose group is R^n.
+    """Return the ambient equation y' = F(y) of ``problem``. The group of the result is R^n.
 
     The exact solution stays on the manifold of ``problem``, but a numerical solution leaves this manifold.
     The distance from the manifold is about as large as the integration error.
 
-    :class:`SceneError` is raised if the scene has no formulas in coordinates. An example is a scene with
-    large matrices.
+    Raise :class:`SceneError` if ``problem`` has no formulas in coordinates. Problems with large matrices have
+    no such formulas.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
@@ -30,8 +33,7 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # ``problem.matrices`` contains a formula for the velocity y'. It is shorter than the formula that
-            # multiplies the generator by the state.
+            # The scene gives the velocity y' by a formula of matrices. The general formula f(y).y is longer.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)
@@ -43,7 +45,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # The tuple ``open_roots`` may be empty if the problem has no run-time inputs.
+        # A problem without run-time inputs may have no ``open_roots``.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

@@ -28,8 +28,8 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` in three cases: ``action`` is not an action, ``group`` cannot act by it, or
-    the points of the scene have the wrong number of coordinates.
+    """Raise :class:`SceneError` if ``action`` is not an action of ``group``, or if the points of the scene
+    have the wrong number of coordinates.
     """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
@@ -46,8 +46,8 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         )
     try:
         width = len(action.velocity(domain, group, zero, y))
-    # The formula of the action may raise an error for a wrong number of coordinates. The width -1 then
-    # leads to the SceneError below.
+    # The formula of the action may fail for a wrong number of coordinates. The value -1 makes the test below
+    # raise SceneError.
     except (ValueError, IndexError):
         width = -1
     if width != len(y):
@@ -79,6 +79,6 @@ def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction,
     first, last = times[0], times[1]
     if not last > first:
         raise SceneError(
-            f"the span ({first}, {last})", where=name, expected="two times, the first less than the second"
+            f"the span ({first}, {last})", where=name, expected="a start time less than the end time"
         )
     return first, last

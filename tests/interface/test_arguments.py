@@ -60,7 +60,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     "solve with stages as text": (lambda: solve("rk", "2", 2), "stages: '2' of type str"),  # type: ignore[arg-type]
     "solve with one text": (
         lambda: solve("rk", 2, 2, fix="a21=1"),
-        'expected a list of texts such as ["a21=1/2"]',
+        'expected a list of strings such as ["a21=1/2"]',
     ),
     "solve with a wrong equation": (
         lambda: solve("rk", 2, 2, fix=["a21"]),
@@ -135,7 +135,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "recommend backwards": (
         lambda: codegen.recommend(RIGID, 1e-3, span=(1, 0)),
-        "span: (1, 0); expected two times, the first less than the second",
+        "span: (1, 0); expected a start time less than the end time",
     ),
     "recommend one tableau": (
         lambda: codegen.recommend(RIGID, 1e-3, tableaux="rk4"),

@@ -143,9 +143,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
             described(span), where="span", expected="a pair of rational numbers, such as (0, 1)"
         ) from None
     if first >= last:
-        raise InputError(
-            f"({first}, {last})", where="span", expected="two times, the first less than the second"
-        )
+        raise InputError(f"({first}, {last})", where="span", expected="a start time less than the end time")
     return first, last
 
 

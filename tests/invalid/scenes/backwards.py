@@ -1,4 +1,4 @@
-# 8: the span (1, 0); expected two times, the first less than the second
+# 8: the span (1, 0); expected a start time less than the end time
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation
