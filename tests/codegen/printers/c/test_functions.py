@@ -85,11 +85,11 @@ def test_a_result_is_assigned_and_several_are_written_through_pointers() -> None
 
 def test_a_table_leaves_zeros_at_the_ends_of_rows_to_c() -> None:
     printer = FunctionPrinter(Unit((), (), (), ()), {}, DOUBLE, "m_")
-    table = Table(real("t", 2, 3), ((1.0, 0.0, 0.0), (0.0, 2.0, 0.0)), "about")
+    table = Table(real("t", 2, 3), ((1.0, 0.0, 0.0), (0.0, 0.05, -0.0)), "about")
     assert printer.table(table)[1:] == [
         "static const double m_t[2][3] = {",
         "    {1.0},",
-        "    {0.0, 2.0},",
+        "    {0.0, 0.05},",
         "};",
     ]
     assert whole(0).number == 0
