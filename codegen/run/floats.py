@@ -1,8 +1,8 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The function :func:`codegen.ir.domain.stumpff` computes the Stumpff functions with other rounding errors. The
-difference may change the number of iterations in an implicit step. The executor of the emitted statements
-(:mod:`codegen.run.execute`) therefore uses the functions of this module.
+The executor of the emitted statements (:mod:`codegen.run.execute`) uses this module. The function
+:func:`codegen.ir.domain.stumpff` has other rounding errors. With these errors, an implicit step might need
+another number of iterations than in emitted code.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
-    Stumpff functions are nested if the argument of one depends on the result of another. ``chain`` is the
-    largest number of nested Stumpff functions (:mod:`codegen.ir.angle_depth`).
+    In a chain of Stumpff functions, each argument depends on the result of the preceding function. ``chain``
+    is the number of functions in the longest chain (:mod:`codegen.ir.angle_depth`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -30,8 +30,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The emitted functions contain the same tests, so their results are exactly equal to the results of
-        # this function.
+        # The emitted functions compare z with the same thresholds, so the results are exactly equal.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -39,20 +38,21 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
-        # For z up to a switch point, c_k is computed by its Taylor polynomial. If several functions are
-        # requested, the switch point of c_0 is used for all of them.
+        # Up to a switch point, c_k is computed by its Taylor polynomial. If several functions are requested,
+        # the switch point of c_0 is used. The larger switch point of c_3 is tested below.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # For z above ``self.limit`` the results are NaN, so the step fails.
+        # For z above ``self.limit``, c_k would have too few correct digits. The result is NaN, so the step
+        # fails.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # Let s be the square root of z. Then c_2 = (1 - cos s)/s^2. For small s this difference loses digits,
-        # so c_2 is computed as sin(s/2)^2/(2 (s/2)^2), which is mathematically equal.
+        # For small s = sqrt(z), the formula c_2 = (1 - cos s)/s^2 loses digits. Therefore the equal
+        # formula c_2 = sin(s/2)^2/(2 (s/2)^2) is used.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # The function c_1 is sin(s)/s, which is the product of sin(s/2)/(s/2) and cos(s/2).
+        # By a half-angle formula, c_1 = sin(s)/s is the product of cos(s/2) and sin(s/2)/(s/2).
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # For z below SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
@@ -67,7 +67,7 @@ class EmittedFloats(FloatDomain):
         return [closed[k] for k in orders]
 
     def call(self, function: str, *args: float) -> float:
-        """Return the value of a function, with the same roundings as in emitted code."""
+        """Return the value of a function, rounded as in emitted code."""
         (z, *_) = args
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
@@ -82,8 +82,8 @@ class EmittedFloats(FloatDomain):
 
     def _curvature(self, k: int, z: float) -> float:
         if z > 1.0:
-            # The second derivative of c_k is a combination of three Stumpff functions. For small z this
-            # combination loses digits, so a Taylor polynomial is evaluated below.
+            # For small z, the formula with three Stumpff functions loses digits, so a Taylor polynomial is
+            # evaluated below.
             a, b, c = self.together([k - 2, k - 1, k], z)
             return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
         *rest, total = curvatures(k)
@@ -116,8 +116,8 @@ def _hyperbolic(k: int, z: float) -> float:
     if k == 0:
         return math.cosh(r)
     if k == 2:
-        # By definition, c_2 = (cosh(r) - 1)/r^2. For small r this difference loses digits, so c_2 is computed
-        # as sinh(r/2)^2/(2 (r/2)^2), which is mathematically equal.
+        # For small r, the formula c_2 = (cosh(r) - 1)/r^2 loses digits. Therefore the equal
+        # formula c_2 = sinh(r/2)^2/(2 (r/2)^2) is used.
         half = 0.5 * r
         ratio = math.sinh(half) / half
         return 0.5 * (ratio * ratio)
@@ -151,8 +151,8 @@ def _short(k: int, z: float, name: str) -> float:
 def _series(k: int, z: float) -> float:
     """Return the Taylor polynomial of the Stumpff function c_k at z.
 
-    The terms with even powers and the terms with odd powers are summed separately. The constant term is added
-    last.
+    The terms with odd powers and the terms with even powers from z^2 on are summed separately. The constant
+    term is added last.
     """
     first, *rest = _terms(k, "series")
     w = z * z

@@ -17,7 +17,7 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers that replace the names of the kernel in one function.
+    """For one function: the identifiers that replace the names of the kernel.
 
     An identifier is a variable, or an entry ``array[k]`` of an array.
     """
@@ -26,15 +26,12 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier that replaces ``name``. Only names of the kernel are replaced."""
-        # If a name of the kernel has no identifier, a KeyError is raised. The name itself must not be
-        # emitted, because it may be illegal.
+        # Names of the kernel may be illegal in the target language. If a name has no identifier, a KeyError
+        # is raised.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable that contains the value of ``name`` in the emitted code.
-
-        If the value is the entry ``array[k]`` of an array, the variable is ``array``.
-        """
+        """Return the variable with the value of ``name``. For an entry ``array[k]``, it is ``array``."""
         return self.of(name).partition("[")[0]
 
 
@@ -58,8 +55,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # The identifiers of the scalar arguments are chosen first. The kernel's names in the body of the function
-    # therefore do not influence this choice.
+    # The identifiers of the scalar arguments are chosen first, so the other names of the kernel do not
+    # influence them.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     # Statements are visited in the order of the code, so that equal programs get equal identifiers.
@@ -67,8 +64,8 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # The array contains the results of an outlined function. In the kernel, the result with the
-            # index k has the name ``name.k``.
+            # An outlined function stores its results in this array. In the kernel, result k has the name
+            # ``name.k``.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }

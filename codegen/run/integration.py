@@ -67,7 +67,8 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # All event functions may have an event at the same time. The buffer needs one entry for each of them.
+    # Events of all event functions may coincide. Therefore the buffer needs one entry for each event
+    # function.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -75,8 +76,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
 class _Constant:
     """Builds the run with steps of constant size. The attributes are variables of the emitted function."""
 
-    # ``t`` is an argument: the caller stores the initial time in it, and the run replaces it by the final
-    # time.
+    # The caller stores the initial time in the argument ``t``. The run overwrites it with the reached time.
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
     now, end, limit = real("now"), real("end"), count("limit")
     start, length, following, left = real("begin"), real("size"), real("then"), real("left")
@@ -109,8 +109,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If ``own_step`` is False, no memory is declared here. Each step calls ``run``, and this function
-            # declares its own memory.
+            # If ``own_step`` is False, each step calls ``run``. The function ``run`` declares its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -126,8 +125,8 @@ class _Constant:
         """True if each step calls the emitted function that makes one step. False if each step calls
         ``run``."""
         plan = self.plan
-        # If the kernel is inlined in ``run``, there is no separate function for one step. If flows are
-        # deferred or the momentum is converted, a step also needs the statements of ``run`` around the step.
+        # If the kernel is inlined in ``run``, no separate function makes one step. Deferred flows and
+        # conversions of the momentum are statements of ``run``, so ``run`` is called in these cases, too.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -162,16 +161,16 @@ class _Constant:
     def moved(self) -> list[Statement]:
         """Return the statements that compute the state after the step."""
         plan, trial = self.plan, self.trial
-        # The step is made with a copy of the state. The search for events also needs the state before the
-        # step.
+        # A copy of the state is advanced. The search for events needs the state before the step.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
-            # The arguments of the caller are passed to the step. Only ``t`` and ``h`` are replaced: by the
-            # time and the size of the current step.
+            # The step receives the arguments of the caller. But ``t`` and ``h`` are replaced by the time and
+            # the size of the current step.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # The arguments of ``run`` for a trajectory and for the number of completed steps are omitted.
+        # Each call of ``run`` makes one step. The trajectory and the number of completed steps are not
+        # needed.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -246,12 +245,12 @@ class _Adaptive(Controlled):
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed if a step is rejected."""
-        # The run ends if a step of size LEAST is rejected. The test is ``<=``, because the last step of a run
-        # may be shorter than LEAST.
+        # The run ends if a step of size LEAST is rejected. The last step of a run may be shorter than LEAST.
+        # If this step is rejected, the run ends, too.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),
             If(short, (Assign(STATUS, code(LEAST_STEP)),)),
-            # Step control may have reduced the step size to a value below LEAST.
+            # The base class may reduce the step size to a value below LEAST.
             If(self.length < LEAST, (Assign(self.length, LEAST),)),
         )

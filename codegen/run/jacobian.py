@@ -1,9 +1,9 @@
 """The derivative of a step with respect to the initial state, as a matrix.
 
-Column k of the matrix is the image of the unit vector k under the linearised step. A tangent vector at the
-initial state is called a variation. In an implicit step, the derivatives of the unknowns in the direction of
-a variation satisfy linear equations. These equations are always solved by fixed-point iteration, and not by
-Newton's method. If the iteration does not converge, the call fails.
+A tangent vector at the initial state is called a variation. The linearised step maps it to a tangent vector
+at the final state. Column k of the matrix is the result for the unit vector k. In an implicit step, the
+derivatives of the unknowns satisfy linear equations. These equations are solved by fixed-point iteration,
+even if the step uses Newton's method. If the iteration does not converge, the call fails.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     requested."""
     if plan.kernel.vary is None:
         return ()
-    # ``plan.kernel.vary`` is the kernel of the linearised step. Its inputs and outputs differ from those of
-    # the step, so it has its own plan.
+    # The linearised step ``plan.kernel.vary`` has other inputs and outputs than the step. Therefore the
+    # linearised step needs a separate plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -62,7 +62,7 @@ def _vector(varying: Plan) -> Term:
 
 
 def vary(plan: Plan, varying: Plan) -> Function:
-    """Return the function that maps a variation to its image under the linearised step or substep."""
+    """Return the function that applies the linearised step or substep to a variation."""
     state, vector, n = plan.state(), _vector(varying), plan.size
     # The linearised kernel has two vectors as inputs: first the state with n numbers, and then the variation.
     # The outputs are the numbers of the new variation.
@@ -95,21 +95,21 @@ class _Jacobian:
         self.plan, self.vector = plan, _vector(varying)
         self.dim = self.vector.shape[0]
         self.given = real("inputs", len(plan.kernel.inputs))
-        # The caller gives the values of the run-time inputs. The function ``vary`` needs a function of time,
-        # so it receives a constant function with these values.
+        # The function ``vary`` expects the run-time inputs as functions of time. The caller gives fixed
+        # values, so constant functions are passed.
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
         """Return the emitted function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # As in the public function ``step``, the run-time inputs are constant during the step.
+        # The run-time inputs are constant during the step, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
-        # ``vary`` has computed one column of the matrix. The matrix is stored row by row.
+        # After the call of ``vary``, ``vector`` is one column. The matrix is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
-            # The variation is a unit vector, so its image is a column of the derivative.
+            # From a unit vector, ``vary`` computes one column of the matrix.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
             If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
@@ -139,17 +139,17 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # The initial guesses in a memory suit only one substep, so each substep has its own memory.
+        # A memory contains initial guesses for one substep, so each substep has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # These substeps only compute the states at which ``vary`` is evaluated. They are not counted in the
-        # statistics of the caller.
+        # These substeps only provide the states for ``vary``. The caller's statistics do not count these
+        # substeps.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
-            # A substep needs the momentum in the body frame, but ``vary`` needs the momentum in the space
-            # frame. Therefore the state is converted before and after each substep.
+            # ``vary`` uses the momentum in the space frame, but a substep uses the momentum in the body
+            # frame. Therefore the momentum is converted before and after each substep.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
             moved = [
@@ -161,7 +161,7 @@ class _Jacobian:
             # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # After a failure the loop ends, so the increased index is not used.
+            # After a failure, the loop ends, and ``part`` is not used again.
             Assign(part, part + 1),
         )
         return [

@@ -4,13 +4,13 @@ The code around a kernel contains, for example, stopping rules and step control.
 representation. Printers translate it to C and Python. The module :mod:`codegen.run.execute` executes it, for
 example with doubles or with exact numbers.
 
-The following rules make a translation to array languages possible, too. There, a loop is a ``while_loop`` and
-a branch is a ``select``.
+Because of the following rules, the representation can also be translated to array languages. In an array
+language, a loop is a ``while_loop`` and a branch is a ``select``.
 
 - A loop ends only at its test, which may read a status or flag. There is no ``break`` statement.
-- A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. Such an If is
-  not inside a loop or another If. If its test holds, an array language may still execute the statements after
-  the If and discard their results.
+- A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. An If with a
+  Return is not inside a loop or another If. After this Return, an array language may still execute the rest
+  of the function and discard the results.
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
@@ -28,7 +28,7 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """An assignment: target = value. For an array or a record, all entries or fields are assigned."""
+    """An assignment: target = value. If the target is an array or record, all its entries are assigned."""
 
     target: Term
     value: Term
@@ -36,7 +36,7 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record. The entries are ``values``, or zeros if ``zero`` is True."""
+    """The declaration of an array or record with the entries ``values``. If ``zero`` is True, they are 0."""
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -50,24 +50,24 @@ class For:
 
     - ``reverse`` is True if the index runs from count - 1 down to 0.
     - ``independent`` is True if several iterations may be executed at once by vector instructions.
-    - ``parallel`` is True if the iterations may be executed in any order and on several processors. The
-      iterations change no scalar variable from outside the loop, except those in ``reductions``.
+    - ``parallel`` is True if the iterations may be executed in any order and on several processors. Scalar
+      variables from outside the loop are then constant in the loop, apart from those in ``reductions``.
     - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. The variable is the sum
       or the maximum of values that the iterations compute.
-    - ``when`` is a test or None. If it is a test, the loop is executed in parallel only if the test holds.
+    - ``when`` is a test or None. If the test fails, the loop is executed on one processor.
     """
 
     index: Term
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
-    # ``independent`` does not follow from ``parallel``: a loop that calls functions can run on several
-    # processors, but compilers cannot vectorise it.
+    # A loop that calls functions may be parallel, but compilers cannot vectorise this loop. The loop is not
+    # independent.
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # A short loop is faster on one processor. Therefore ``when`` may test whether there is enough work for
-    # several processors.
+    # A short loop is slower on several processors than on one. Therefore ``when`` may test the amount of
+    # work.
     when: Term | None = None
 
 
@@ -128,8 +128,8 @@ LANGUAGE = frozenset({"sample", "measure"})
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. With a
-# guard, a function returns the same result in both languages.
+# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. A guard
+# catches the exception, so that a function returns the same result in both languages.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``.
 
@@ -146,8 +146,8 @@ class Function:
     - ``returns`` is the kind of the result. It is None if the function returns nothing.
     - ``public`` is True if the function can be called from outside the unit.
     - ``often`` is True if the function is called in each step and should be inlined.
-    - ``near`` is True if the function calls special variants of the sine, the cosine and the Stumpff
-      functions. These variants have no branches. They return NaN for arguments that are not near zero
+    - ``near`` is True if the function calls variants of the sine, the cosine and the Stumpff functions that
+      are valid only near zero. These variants have no branches. For larger arguments, they return NaN
       (:mod:`codegen.run.batch`).
     """
 
@@ -156,7 +156,7 @@ class Function:
     parameters: tuple[Term, ...]
     body: Body
     returns: Kind | None = None
-    # If ``guard`` is empty, the function does not catch the exceptions of arithmetic errors.
+    # If ``guard`` is empty, an arithmetic error in Python raises an exception in the caller.
     guard: str = ""
     # A function that is not public is not visible outside the unit, so compilers may inline it.
     public: bool = False
@@ -169,8 +169,8 @@ class Record:
     """A record type. A record contains values that the emitted functions keep from one call to the next.
 
     ``fields`` contains one pair for each value. The first entry of the pair is a term with the name and the
-    type of the value. The second entry is a comment for the emitted code. The caller of the emitted code
-    creates the records of a public type.
+    type of the value. The second entry is a comment for the emitted code. If ``public`` is True, the
+    caller of the emitted code creates the records.
     """
 
     name: str
@@ -184,7 +184,7 @@ class Table:
     """A constant array with one or two dimensions. A two-dimensional array is stored row by row."""
 
     name: Term
-    # An array of one dimension has a single row.
+    # A one-dimensional array is stored as a single row.
     rows: tuple[tuple[float, ...], ...]
     about: str = ""
 
@@ -194,7 +194,7 @@ class Unit:
     """All emitted code of one kernel: its records, tables and functions.
 
     Each function comes after the functions that it calls. ``scalars`` contains the names of t, h and the
-    parameters of the kernel. Each of these names has the same identifier in all functions.
+    parameters of the kernel. In each function, the identifiers of these names are chosen first.
     """
 
     scalars: tuple[str, ...]
@@ -235,7 +235,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # Without a condition for parallel execution, ``when`` is None.
+            # A loop may have no test ``when``.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -269,9 +269,8 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 
 def root(target: Term) -> Term:
-    """Return the variable that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # An entry of an array and a field of a record are terms with arguments. The first argument is the array
-    # or the record.
+    """Return the variable that contains ``target``, for example ``memory`` for ``memory.values[3]``."""
+    # The term of an array entry or record field has arguments. Its first argument is the array or record.
     while target.args:
         target = target.args[0]
     return target
@@ -295,14 +294,13 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads. Names that occur only in the bodies of a loop or branch are not
-    included.
+    """Yield the names that a statement reads. The bodies of a loop or branch are not searched.
 
     If a statement assigns one entry of an array, the name of the array is included.
     """
     given = assigned(statement)
-    # A statement that assigns a whole array does not read it. If one entry is assigned, the array keeps its
-    # other entries, so the array counts as read.
+    # An assignment to a whole array does not read the array. An assignment to one entry keeps the other
+    # entries, so it counts as reading the array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -1,10 +1,10 @@
 """The emitted functions for a step of a large linear problem y' = A(t) y.
 
-A step is described in :mod:`codegen.ir.linear_array_step`. It multiplies the vector y by exponentials exp(X)
-of matrices X, as in :mod:`codegen.ir.exponential_action`. The norm of a matrix is here its largest row sum of
-absolute values. X is halved s times, so that its norm becomes small. Then y is multiplied 2^s times by a
-Taylor polynomial of exp(2^-s X) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The
-remainder of the polynomial is below 2^-10 times the unit roundoff, relative to y.
+A step multiplies the vector y by exponentials exp(X) of matrices X (:mod:`codegen.ir.linear_array_step`). In
+this module, the norm of a matrix is the largest row sum of absolute values. The matrix X is halved s times,
+so that the norm becomes small. Then y is multiplied 2^s times by a Taylor polynomial of exp(2^-s X)
+(A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The truncation error of the polynomial,
+relative to y, is about 2^-10 times the unit roundoff (:mod:`codegen.ir.exponential_action`).
 
 If X contains commutators, an upper bound of its norm is used. The upper bound of a sum is the sum of the
 upper bounds of its terms. The upper bound of a commutator Y Z - Z Y is twice the product of the upper bounds
@@ -61,11 +61,10 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number of halvings of the matrix in an exponential.
+"""The largest number s of halvings of the matrix in an exponential.
 
-After s halvings, the state is multiplied 2^s times by a Taylor polynomial. For a tridiagonal matrix with 1000
-rows, s = 16 and the degree 22, the multiplications take seconds. A step that needs more than 16 halvings
-fails with the status TOO_FAR.
+The state is multiplied 2^s times by a Taylor polynomial. With s = 16, this takes seconds for a tridiagonal
+matrix with 1000 rows. If a step needs more halvings, it fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -92,8 +91,8 @@ class _Step:
     """Builds the emitted functions of one step.
 
     A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter. An
-    element is the sum of at most one letter and of multiples of commutators [X, Y], where X and Y are
-    elements.
+    element is a letter, a sum of multiples of commutators, or a letter plus such a sum. Each commutator
+    [X, Y] contains two elements X and Y.
     """
 
     plan: Plan
@@ -103,8 +102,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Each element with commutators gets a function that multiplies it by a vector. An element without
-        # commutators is a single letter. The function PRODUCT multiplies any letter by a vector.
+        # An element with commutators gets its own function, which multiplies a vector by the element. An
+        # element without commutators is a letter. For letters, the function PRODUCT is used.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -124,9 +123,8 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # An exponent without commutators is a single letter. The letter is an argument of the function
-            # EXPONENTIAL, so one function is enough for all letters. The number 0 in ``Element(0)`` is only a
-            # placeholder for the letter.
+            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL, which
+            # has the letter as an argument. ``Element(0)`` is a placeholder for this letter.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
@@ -139,7 +137,7 @@ class _Step:
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters in an element and its commutators, sorted by letter number."""
+        """Return the arrays of all letters in an element, sorted by number. Commutators are searched, too."""
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -152,7 +150,7 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # The elements inside commutators have the lowest numbers. All other elements have higher numbers.
+        # Elements inside commutators are numbered first, and all other elements are numbered after them.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -166,8 +164,8 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        ``done`` contains the numbers ``id(e)`` of all elements e that already have a function. The number of
-        ``element`` is added.
+        ``done`` contains ``id(e)`` for each element e that already has a function. The method adds
+        ``id(element)``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
@@ -192,13 +190,13 @@ class _Step:
         The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # The argument of ``letters`` is an element, so the commutator is converted to an element.
+        # ``letters`` accepts only elements. This element is the commutator times 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
-            # A product cannot overwrite the vector that it reads. Therefore Y x is stored in the work array
-            # ``first``. Later this array is used for X x.
+            # A product cannot overwrite the vector that it reads. Therefore Y x and later X x are stored in
+            # the work array ``first``.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),
@@ -216,7 +214,7 @@ class _Step:
         return " + ".join(parts)
 
     def over(self, y: Term, entry: Term) -> For:
-        """Return the loop that computes the array ``y``. The term ``entry`` is the value of ``y[_PLACE]``."""
+        """Return the loop over the index ``_PLACE`` that assigns ``entry`` to ``y[_PLACE]``."""
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
@@ -228,23 +226,22 @@ class _Step:
         parts, degree, factor = count("parts"), real("degree"), real("factor")
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-        # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``.
+        # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough.
         # The lowest sufficient degree is chosen.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Let m be the degree, y the state, and b the matrix X times ``scale``. Horner's rule computes the
-        # vector p. It is the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are exact.
-        # Coefficients 1/j! would have the same rounding errors in all steps, and these errors would add up.
+        # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
+        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. Coefficients
+        # 1/j! would be rounded, and their errors would be the same in all steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # After the loop, ``weight`` is m!. With the vector p of Horner's rule, the Taylor polynomial of
-        # exp(b) y is y + b (p/m!).
+        # After the loop, ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
@@ -261,8 +258,8 @@ class _Step:
             *norms,
             # An infinite norm would remain infinite after any number of halvings.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # X may contain commutators, which are not linear in the letters. Therefore the letters are
-            # not scaled. Each product of X and a vector is multiplied by ``scale`` instead.
+            # If X contains commutators, half the letters do not give half of X. Therefore the letters are not
+            # scaled. Each product of X and a vector is multiplied by ``scale`` instead.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -296,7 +293,7 @@ class _Step:
             return total
 
         def commutator(k: int) -> Term:
-            # The bound of a commutator may be read several times, but it is computed only once.
+            # A commutator may occur several times, but its bound is computed only once.
             if k not in bounds:
                 x, y = map(bound, self.step.commutators[k])
                 bounds[k] = real(f"bound_{k + 1}")
@@ -321,11 +318,11 @@ class _Step:
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
-            # The name contains a space, so it differs from all names in the kernel.
+            # Names in the kernel contain no spaces, so this name is new.
             at = own(f"time {k + 1}")
-            # If the matrix does not depend on t, the times t_i are not computed.
+            # ``at`` is the time t_i. If the matrix does not depend on t, this time is not computed.
             body += [Assign(at, value(time))] if plan.time else []
-            # In the call of VALUE, the argument t is replaced by t_i.
+            # The function VALUE evaluates the matrix at the time t_i instead of t.
             moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
             arguments = (*(x for x in moment if self.takes(x)), *plan.parameters, node)
             body.append(Call(VALUE, arguments))
@@ -344,12 +341,12 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if ``x`` is an argument of the function that evaluates the matrix A.
+        """Return True if the function that evaluates the matrix A(t) has the argument ``x``.
 
-        ``x`` is the time or the step size.
+        ``x`` is the time t or the step size h.
         """
-        # For a banded matrix, the function computes h A(t), so it needs the step size h. For a full matrix,
-        # the function computes subexpressions of A(t), and does not need h.
+        # For a banded matrix, the function computes h A(t), so h is an argument. For a full matrix, the
+        # function computes only subexpressions of A(t).
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
