@@ -1,13 +1,13 @@
 """Continuation in h: find the solution of a step from the solutions of shorter steps.
 
-The continuation is used if the equations of a step cannot be solved. The first attempt repeats the step
-without the solutions of earlier steps, because they are bad initial guesses if the motion has changed. Then
-the step is halved until an attempt succeeds. After the first success, each solution is the initial guess for
-a longer step. The ratio of two consecutive step sizes is increased after a success and reduced after a
-failure.
+The continuation is used if a step fails, for example because its equations cannot be solved. The first
+attempt repeats the step without the solutions of earlier steps. After a change of the motion, these solutions
+are bad initial guesses. If the first attempt fails, the step is halved until an attempt succeeds. Each
+solution is then the initial guess for a longer step. The ratio of two consecutive step sizes is increased
+after a success and reduced after a failure.
 
-The equations of a long step may have several solutions. The continuation finds the solution that changes
-continuously if h increases from 0.
+The equations of a long step may have several solutions. If h grows from 0, one of these solutions changes
+continuously. The continuation finds this solution.
 """
 
 from __future__ import annotations
@@ -52,13 +52,13 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return a list with the statement that calls the continuation if a step fails.
 
-    The list is empty if steps have no warm start.
+    If steps have no warm start, the list is empty.
     """
     # The continuation needs the solutions of shorter steps. Steps without a warm start store no solutions.
     if plan.start is None:
         return []
-    # A step may fail because its iteration does not converge, overflows, or finds a singular matrix. A
-    # shorter step may succeed in each case. BAD_STEP is the exception: the step size is infinite or a NaN.
+    # If an iteration does not converge, overflows, or finds a singular matrix, a shorter step may succeed. If
+    # the step size is infinite or a NaN (status BAD_STEP), the step is not repeated.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -96,9 +96,9 @@ class _Continuation:
         # The continuation stores its solution in the memory of the run. The solution is the initial guess of
         # the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of size zero cannot be shortened. It leaves the state unchanged, so only the state is tested.
+        # A step of size zero leaves the state unchanged. The step succeeds if the state is finite.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If ``factor`` is near 1, the step size hardly grows, so the loop ends.
+        # If ``factor`` is near 1, the fraction of h hardly grows. The loop then ends without success.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -111,7 +111,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` is NOT_CONVERGED until an attempt fails.
+            # This is an initial value. Every failed attempt replaces it.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -119,8 +119,8 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
-            # The stored solutions belong to steps of different lengths, so a polynomial through them would be
-            # a bad initial guess. If ``known`` is 1, the next step uses only the last solution.
+            # The stored solutions belong to steps of different lengths. A polynomial through these solutions
+            # would be a bad initial guess. With ``known`` = 1, the next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -137,11 +137,11 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        This is the status of the last failed attempt. For kernels without run-time inputs, there is one
-        exception: if a shorter step succeeded, NOT_FINITE is replaced by TOO_FAR.
+        This is the status of the last failed attempt. If a shorter step succeeded, NOT_FINITE is replaced by
+        TOO_FAR. With run-time inputs, NOT_FINITE is not replaced.
         """
-        # Run-time inputs depend on the time, so a shorter step reads other values of the inputs. The success
-        # of a shorter step therefore does not show that h is too large.
+        # A shorter step reads the run-time inputs at other times. If a shorter step succeeds, an input may
+        # therefore be the cause of the failure.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -155,7 +155,7 @@ class _Continuation:
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
         # The stored rates of convergence belong to another step size, so they are set to 1. With the rate 1,
-        # a loop can end after its first sweep only if the change of the unknowns is a rounding error.
+        # the predicted next change of the unknowns equals the change in the first sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -163,8 +163,8 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # The error estimate is omitted. Only runs with step-size control read it, and these runs do not use
-        # the continuation.
+        # The argument for the error estimate is absent. Only step-size control needs the estimate, and runs
+        # with step-size control do not use the continuation.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.
@@ -178,15 +178,15 @@ class _Continuation:
     def adapted(self) -> list[Statement]:
         """Return the statements that follow an attempt.
 
-        If the full step has succeeded, they end the loop. Otherwise they choose the next fraction of h.
+        If the full step has succeeded, the loop of attempts ends. Otherwise the next fraction of h is chosen.
         """
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # Each success squares the factor. After the first success, a failure replaces the factor by its
-        # square root. A failure followed by a success therefore leaves the factor unchanged.
+        # A success squares ``factor``. A failure replaces ``factor`` by its square root. Before the first
+        # success, a failure leaves ``factor`` unchanged.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -194,10 +194,10 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, ``solved`` is 0, and ``part`` is halved after each attempt. After the
-            # first success, ``part`` is ``factor`` times ``solved``.
+            # Before the first success, ``solved`` is 0, and each failure halves ``part``. After the first
+            # success, ``part`` is ``factor`` times ``solved``.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
-            # ``part`` is at most 1. If it is 1, the next attempt makes the full step.
+            # The fraction ``part`` must not exceed 1. The fraction 1 is the full step.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

@@ -4,10 +4,11 @@ The last flow of a step and the first flow of the next step are computed as one 
 all other flows are applied once for many steps. In exact arithmetic, the result is the same as without
 deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
-A state is complete only after the deferred flows have been applied. They are applied before a state is
-written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. Only
-complete states are tested. A NaN remains in the state, so the test also finds a NaN from an earlier step. If
-the test fails, the run is repeated, and every step applies all flows. This finds the last finite state.
+A state is complete only after the deferred flows have been applied. The run applies the deferred flows before
+it writes a state to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps.
+Only complete states are tested. A NaN remains in the state, so a test also finds a NaN from an earlier step.
+If a complete state is not finite, the run is repeated from the beginning, and no flow is deferred. The
+repeated run finds the last finite state.
 """
 
 from __future__ import annotations
@@ -58,13 +59,14 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a step. It is not called if the previous step has already applied this flow.
+- BEGIN applies the first flow of a step. If the last flow of the previous step includes this flow, BEGIN is
+  not called.
 - FINISH applies the flows that commute with all other flows of the method.
-- COMPLETE makes one step and defers no flow.
+- COMPLETE applies all flows of one step.
 """
 
 LATE = count("late")
-"""The number of steps since the deferred flows were last applied."""
+"""The number of steps since the last application of the deferred flows."""
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
@@ -90,7 +92,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # The kernels of deferred flows have no implicit equations. Their plans therefore need no continuation.
+    # A splitting has no implicit equations, so the value of ``tries`` is not needed.
     return Plan(kernel, plan.format)
 
 
@@ -98,14 +100,14 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The callers test the state later, when they have applied all deferred flows. A NaN or an infinity is
-    # still in the state at that time.
+    # The callers test the state after they have applied all deferred flows. Until this test, a NaN or an
+    # infinity cannot disappear from the state.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # In the argument lists of all functions, the durations LEAD and ELAPSED come last.
+    # Among the scalar arguments, t and h come first. The durations LEAD and ELAPSED come last.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -121,8 +123,8 @@ class _Deferring:
     """
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
-    # applied after the step. ``begun`` is True if the first flow of the step has already been applied, as a
-    # part of the last flow of the previous step.
+    # applied after the step. ``begun`` is True if the last flow of the previous step includes the first flow
+    # of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
     # applies all flows. ``good`` is True if the last complete state is finite. ``again`` is True if the run
@@ -134,8 +136,8 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # The exact durations are rounded once to the precision of the module. In single precision, rounding
-        # to doubles first would cause a second rounding error.
+        # The exact durations are rounded once, directly to the precision of the module. In single
+        # precision, a conversion through doubles would cause a second rounding error.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
@@ -146,8 +148,8 @@ class _Deferring:
         """
         if kernel is None:
             return []
-        # ``known`` contains the arguments for the parameters t, LEAD and ELAPSED. The argument for any other
-        # parameter is the variable with the same name.
+        # ``known`` contains the arguments for the parameters t, LEAD and ELAPSED. For every other
+        # parameter, the argument is the variable with the same name.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -166,7 +168,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # No step follows, so the last flow is a separate flow. Its duration is ``last`` times h.
+            # In a complete step, the duration of the last flow is ``last`` times h.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -181,7 +183,7 @@ class _Deferring:
             Assign(state, self.moving),
             Return(code(OK)),
         )
-        # A splitting has no implicit equations, so there are no statistics.
+        # A splitting has no implicit equations, so it has no statistics of iterations.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function(
             COMPLETE, "One complete step: no flow is deferred to a later step.", parameters, body, Kind.STATUS
@@ -205,11 +207,12 @@ class _Deferring:
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
             # There are at most three attempts. The first attempt defers flows. If it fails, the second
-            # applies all flows in every step and finds the step that fails. The third ends before this step.
+            # attempt applies all flows in every step and finds the step that fails. The third attempt ends
+            # before this step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
-            # If a step failed, ``asked`` is now the number of steps before it. The failed step therefore
-            # begins at the time ``t`` + ``asked`` * ``h``.
+            # If a step failed, ``asked`` is the number of successful steps. The failed step begins at the
+            # time ``t`` + ``asked`` * ``h``.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -220,14 +223,13 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # If ``careful`` is True, the failed attempt has tested the state after every step. DONE is then
-            # the number of steps before the failed step. The next attempt makes only these steps, so it does
-            # not fail.
+            # If ``careful`` is True, this attempt has tested the state after every step. Therefore DONE is
+            # the number of successful steps. The next attempt makes only DONE steps and does not fail.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # At the beginning of an attempt, the first flow of the method has not been applied. If the function
-        # BEGIN does not exist, the variable ``begun`` is not needed.
+        # When an attempt begins, no flow has been applied, so ``begun`` is False. Without the function BEGIN,
+        # the emitted code does not contain ``begun``.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -235,11 +237,11 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # The array ``complete`` contains the last state that was tested and found finite.
+            # The array ``complete`` contains the initial state or the last complete state that was finite.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # A state that is not finite makes another attempt necessary.
+            # If a complete state is not finite, another attempt follows.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -250,21 +252,21 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # LATE is the number of steps since the deferred flows were last applied. The product of LATE and h
-        # has a single rounding error. A sum of step sizes would have many.
+        # Here LATE includes the current step. The product of LATE and h has a single rounding error. A
+        # repeated addition of h would cause one rounding error for each step.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # The deferred flows are applied after LONGEST steps at the latest. This bounds the angle of a
-            # deferred rotation. The sine and cosine of a very large angle have few correct digits.
+            # After LONGEST steps, the deferred flows are always applied. Otherwise the angle of a deferred
+            # rotation could be very large, and its sine and cosine would have few correct digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
                 # If ``stop`` is True, the last flow of this step has the duration ``last`` times h. Otherwise
-                # it is joined to the first flow of the next step, and the duration is ``later`` times h.
+                # the last flow includes the first flow of the next step. Its duration is ``later`` times h.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

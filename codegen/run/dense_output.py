@@ -1,7 +1,7 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
-The function EXTEND computes the coefficients of the extension. Its cost is about the cost of a step. The
-function EXTENDED evaluates a polynomial and applies one exponential. The result is a state inside the step.
+The function EXTEND computes the coefficients of the extension. A call of EXTEND costs about as much as a
+step. The function EXTENDED computes a state inside the step. It evaluates a polynomial and one exponential.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class DenseOutput:
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
         # The kernel ``extension.moved`` applies the exponential of an element of the Lie algebra to a state.
-        # Its inputs are the state and the coordinates of the element. ``width`` is the number of coordinates.
+        # The inputs are the state and the coordinates of the element. ``width`` is the number of coordinates.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
@@ -65,11 +65,11 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
-        # The coefficient of theta^(p + 1) has m coordinates. In the array ``powers``, coordinate i of this
-        # coefficient has the index i + p * m.
+        # The array ``powers`` contains the coefficients of theta, theta^2, and so on. Each coefficient has m
+        # coordinates. Coordinate i of the coefficient of theta^(p + 1) has the index i + p * m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
-        # The coordinates are a polynomial in theta without a constant term, because they are zero at the
-        # beginning of the step. Therefore the result of Horner's rule is multiplied by theta once more.
+        # At theta = 0 all coordinates are zero, so their polynomials in theta have no constant term. Horner's
+        # rule computes a polynomial divided by theta. The result is then multiplied by theta.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
         # The array ``pair`` is the argument of MOVED. It contains the state and then the coordinates.
         body = (

@@ -1,7 +1,7 @@
-"""An executor of the run representation (:mod:`codegen.run.language`) for many kinds of numbers.
+"""Execution of emitted programs in Python, with many kinds of numbers (:mod:`codegen.ir.domain`).
 
-It executes the statements of the emitted code with the numbers of a number domain (:mod:`codegen.ir.domain`),
-for example floats or exact numbers. It must be possible to compare the numbers.
+The programs consist of the statements in :mod:`codegen.run.language`. The numbers are, for example, floats or
+exact numbers. The statements compare numbers, so the numbers must have an order.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -72,12 +72,12 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 
 
 class Machine:
-    """The functions of a unit (one emitted program), ready to be called with numbers of a number domain.
+    """Executes the functions of a unit (one emitted program) with numbers of a number domain.
 
     - Arrays are lists, and arrays of rows are lists of lists.
-    - A cell, through which a function returns a value, is a list of one entry.
-    - Records are created by :meth:`record`.
-    - Absent arguments are None.
+    - If a function returns a value through an argument, this argument is a list of one entry.
+    - The method :meth:`record` creates the records.
+    - The value of an absent argument is None.
     - The argument for the run-time inputs is a function of time. It returns the values of all inputs.
     """
 
@@ -85,10 +85,10 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # The entries are converted here, because a conversion at each access would be slow.
+            # The numbers in the tables are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # Here the identifiers are keys of a dictionary, so every word is a valid identifier.
+        # The identifiers are keys of a dictionary, so no word is reserved.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -113,12 +113,12 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return a zero, an array of zeros with the given shape, or a record whose fields are all zero."""
+        """Return the zero of ``kind``. If ``shape`` is not empty, return an array of such zeros."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags are Python integers in every domain.
+        # Only real numbers belong to the domain. A count or a flag is a Python integer.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
@@ -136,12 +136,12 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function in which an arithmetic error has occurred.
+        """Return the result of a function after an arithmetic error.
 
-        If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and the
-        arrays that the function changes are filled with NaNs.
+        If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
+        output arrays are filled with NaNs.
         """
-        # Where IEEE arithmetic computes an infinity or a NaN, exact numbers and mpmath numbers raise an
+        # In IEEE arithmetic, a division by zero gives an infinity or a NaN. In Python, the division raises an
         # exception.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
@@ -223,7 +223,7 @@ class _Compiler:
         test, body = self.term(loop.test), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # With ``at_least_once`` the body comes first, because the test may read variables of the body.
+            # With ``at_least_once``, the test may read variables of the body, so the body is executed first.
             again = loop.at_least_once or test(env)
             while again:
                 if body(env):
@@ -274,7 +274,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
-            # A plain assignment would make both names refer to one list. A slice assignment copies entries.
+            # The assignment to a slice copies the entries, so the target and the value remain separate lists.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -414,7 +414,7 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # The sign of zero is taken to be positive, because exact numbers have no negative zero.
+                # Exact numbers have no negative zero. Therefore a zero counts as positive.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -458,7 +458,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # The domain computes all results together. Execution of the emitted statements would be slow.
+        # A vector function of the domain is faster than the execution of the emitted statements.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
@@ -493,7 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
-        # For each exchange of two rows above, the same two columns of the inverse are exchanged.
+        # If two rows of the matrix were exchanged, the same columns of the inverse must be exchanged.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()

@@ -1,6 +1,7 @@
 """The emitted function that computes the product of a matrix exponential and a vector.
 
-In double precision, the results equal those of :mod:`codegen.ir.exponential_action`.
+In double precision, the function executes the same operations as
+:meth:`codegen.ir.exponential_action.ExponentialAction.in_doubles`.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
     """Return the emitted function that computes exp(a) y for a matrix a and a vector y.
 
-    The matrix is divided by 2^s, so that its norm is small. The vector is then multiplied 2^s times by the
-    Taylor polynomial of exp(a/2^s). If s would be larger than HALVINGS, all entries of the result are NaN.
+    The matrix is halved s times, until its norm is small. The vector is then multiplied 2^s times by the
+    Taylor polynomial of exp(a/2^s). If s would exceed HALVINGS, all entries of the result are NaN.
     """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
@@ -25,22 +26,22 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``. The
-    # emitted code tests the lowest degree first, so it chooses the lowest sufficient degree. The loop below
-    # adds the tests in reverse order.
+    # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
+    # emitted code chooses the lowest sufficient degree. Its conditional expressions are nested. The outermost
+    # expression tests the lowest degree, so the loop constructs this expression at the end.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
-    # Let b be the scaled matrix, m the degree, and v the vector ``result``. Horner's rule computes p, the sum
-    # of (m!/j!) b^(j - 1) v over j = 1, ..., m. The integers m!/j! are exact. Coefficients 1/j! would be
-    # rounded. Their errors would be the same in every step, and would therefore accumulate.
+    # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
+    # is v + b (p/m!). Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m.
+    # The integers m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # After Horner's rule, ``weight`` is m!. The Taylor polynomial of exp(b) v is v + b (p/m!).
+    # After Horner's rule, ``weight`` is m!.
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -64,7 +65,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(parts, whole(1)),
         While(
             # Each halving of the matrix doubles the computing time, so at most HALVINGS halvings are made. If
-            # the norm is then still too large, all entries of the result are NaN.
+            # more halvings are needed, all entries of the result are NaN.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -109,7 +110,7 @@ def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> lis
         inner = (Assign(value, number(0.0)), For(_COLUMN, whole(function.n), (added,)))
         return [For(_ROW, whole(function.n), (*inner, Assign(result[_ROW], value)))]
     return [
-        # A row without non-zero entries has no terms to add.
+        # If all entries of a row are zero, the sum has no terms.
         Assign(result[i], total(a[k] * y[j] for k, j in row) if row else number(0.0))
         for i, row in enumerate(function.rows)
     ]
