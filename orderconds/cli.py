@@ -1,4 +1,4 @@
-"""The command-line program. It imports the module of a built-in command only when the command is used.
+"""The command-line program. A built-in command is imported when it is used, so the program starts quickly.
 
 :data:`BUILT_IN` lists the built-in commands. Other packages, such as ``codegen``, provide commands as entry
 points (see :data:`COMMAND_GROUP`).
@@ -60,7 +60,7 @@ BUILT_IN = {
     ),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
-"""Maps the name of each built-in command to its module and to its description in ``orderconds --help``."""
+"""Maps the name of each built-in command to a pair (module, description in ``orderconds --help``)."""
 
 OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
@@ -87,7 +87,7 @@ class Program(click.Group):
         if name in BUILT_IN:
             module, summary = BUILT_IN[name]
             command = importlib.import_module(module).command
-            # When some shells complete the name of a command, they also show this summary.
+            # Some shells show the summary of a command next to the completed name.
             command.short_help = summary
         else:
             entries = [entry for entry in _offered() if entry.name == name]
@@ -151,13 +151,15 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line, or print the text of ``--help``. An interrupt or a closed pipe raises
-        :class:`~orderconds.exit_status.Stopped`."""
+        """Parse the command line. If ``--help`` is given, print the help text.
+
+        Raises :class:`~orderconds.exit_status.Stopped` after Ctrl-C, or if the output pipe is closed.
+        """
         with past_click():
             return super().make_context(*args, **extra)
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
-        """Run one command and exit with its status. Every error is reported by one message."""
+        """Run one command and exit with its status. If an error occurs, print one message."""
         status = 0
         for name in ("stdout", "stderr"):
             if getattr(sys, name) is None:  # The caller has closed the stream, as in ``orderconds ... >&-``.
@@ -181,7 +183,7 @@ class Program(click.Group):
 def _offered() -> Iterable[EntryPoint]:
     """Return the entry points by which other packages provide commands.
 
-    The import of ``importlib.metadata`` is slow. It happens only when this function is called.
+    This function imports ``importlib.metadata`` itself, because the import is slow.
     """
     from importlib import metadata
 
@@ -189,15 +191,15 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if the options of a command are repeated or contradict each other.
+    """Raise a UsageError if an option with a value is repeated, or if two flags contradict each other.
 
-    A flag may be repeated. An option with a value may be repeated if it is declared with ``multiple=True``.
-    Two flags that set the same parameter, such as ``--quick`` and ``--full``, contradict each other.
+    Options that are declared with ``multiple=True`` may be repeated. Two flags contradict each other if they
+    set the same parameter, for example ``--quick`` and ``--full``.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # Click sets no context if the value of an option is missing.
+        error.ctx = error.ctx or ctx  # If an option lacks its value, the error has no context.
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
@@ -213,7 +215,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
 
 
 def with_output_options(command: click.Command) -> click.Command:
-    """Add ``--quiet`` and ``--verbose`` to a command that does not have them.
+    """Add the options ``--quiet`` and ``--verbose`` to a command if they are missing.
 
     >>> [p.opts[0] for p in with_output_options(click.Command("list")).params]
     ['--quiet', '--verbose']
@@ -260,10 +262,9 @@ def program() -> None:
 
 
 def main() -> NoReturn:
-    """Run the program on the command line's arguments.
+    """Run the program with the arguments of the command line.
 
-    Garbage collection is made rare. It would free little memory, because a command uses most of its objects
-    until the end.
+    A command uses most of its objects until the end. Therefore Python is set to collect garbage less often.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

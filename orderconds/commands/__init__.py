@@ -1,3 +1,3 @@
-"""The commands of ``orderconds``. Each module defines one click command with the name ``command``. This
-command returns an exit status.
+"""The commands of ``orderconds``. The module of a command defines the click command under the name
+``command``. It returns the exit status.
 """

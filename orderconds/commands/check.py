@@ -30,16 +30,16 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The text output lists at most this number of failing conditions, or of names of skipped files."""
+"""The largest number of failing conditions, and of files of other formats, in the text output."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""A coefficient of a 2N storage scheme is printed in full if it has at most this number of characters."""
+"""The largest number of characters of a coefficient A_i or B_i. Longer coefficients are shortened."""
 
 WIDTH = 200
-"""The largest length of a formula or a residual in the text output. Longer texts are shortened."""
+"""The largest number of characters of a formula or a residual. Longer texts are shortened."""
 
 
 @click.command(name="check")
@@ -64,20 +64,20 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require that each file claims its order in every family. No claim is needed if the order follows "
-    "from the order in another family.",
+    help="Require a claim in every family to which the method belongs. No claim is needed if the order in "
+    "another family implies this order.",
 )
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require a proof of each order (certificate exact or ball). If a DIR contains a file with the "
-    "name DECIMAL, the tableaux listed in this file need no proof.",
+    help="Require a proof of each order: the certificate must be 'exact' or 'ball'. If a DIR contains a file "
+    "DECIMAL, the tableaux listed in this file need no proof.",
 )
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with status 1 if a tableau claims no order in the checked families. Exit with status 2 if a "
-    "file in a DIR resembles a tableau but cannot be read.",
+    help="Exit with status 1 if a tableau claims no order in the checked families. In a DIR, do not skip "
+    "files that resemble a tableau.",
 )
 @click.option(
     "--skip-others",
@@ -88,8 +88,8 @@ WIDTH = 200
     "--tolerance",
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
-    help="The uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|). "
-    "Default: 8. If UNITS is 0, the floats are exact numbers.",
+    help="The uncertainty of binary floats. For a float x, one unit is 2^-53 max(1, |x|). Default: 8. If "
+    "UNITS is 0, the floats are exact.",
 )
 @click.option(
     "--execute",
@@ -132,14 +132,14 @@ def command(
     """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
     NPZ, Python, LaTeX or C) or by its name in the library.
 
-    A file can claim an order, for example with the line `order = 4`. In the table `claims`, a file can claim
-    one order for each family, for example `rk = 4`. A claimed order must equal the computed order. If a limit
-    ends the computation, the computed order is a lower bound.
+    A file can claim an order, for example with the line `order = 4`. The line `rk = 4` in its table `claims`
+    claims an order in one family. A claimed order must equal the computed order. If a limit ends the
+    computation, the computed order is a lower bound.
 
-    If a directory is given, all tableau files below it are checked. The names of other files are printed. If
-    the option --require-claims is given, a file that resembles a tableau is not skipped.
+    If a directory is given, all tableau files below it are checked, and other files are skipped. With
+    --require-claims, files that resemble a tableau are not skipped.
 
-    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
+    The exit status is 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file cannot be read.
 
     \b
     Examples:
@@ -177,7 +177,7 @@ def command(
 
 
 def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
-    """If there are tableaux without a claim, write their number to stderr."""
+    """Write the number of tableaux without a claim to stderr, if there are such tableaux."""
     if count := verdicts.count(UNCLAIMED):
         click.echo(
             f"--require-claims: {count} of {len(verdicts)} tableaux claim no order; {HOW_TO_CLAIM}",
@@ -186,11 +186,7 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau.
-
-    A file ``DECIMAL`` in a directory contains a list of tableaux. These tableaux need no proof, even with
-    ``--certified``.
-    """
+    """Return one job for each tableau. Tableaux that are listed in a file ``DECIMAL`` need no proof."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -205,7 +201,7 @@ def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: boo
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
-    """Check tableaux in parallel. Print and yield the outcomes in the order of the jobs."""
+    """Check tableaux in parallel. Print and yield the outcomes in the sequence of ``jobs``."""
     subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
     with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
         for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
@@ -219,9 +215,9 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection during the check of a single tableau.
+    """Disable garbage collection if there is only one job.
 
-    The check uses most of its objects until the end, so a collection would free little memory.
+    A check uses most of its objects until the end, so garbage collection would free little memory.
     """
     collects = gc.isenabled()
     if len(jobs) == 1:
@@ -234,7 +230,7 @@ def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
 
 
 class _Job(Struct, frozen=True):
-    """A tableau, given as a file or a name, and the options of its check."""
+    """One check: the file or name of a tableau, and the options."""
 
     path: str
     family: str | None
@@ -277,7 +273,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # A single job runs in the main process, which may print to the terminal.
+    if not job.one_of_many:  # A single job runs in the main process, so it prints directly.
         if screen.is_shown(report.verdict == "holds"):
             _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
@@ -289,8 +285,8 @@ def _checked(job: _Job) -> _Outcome:
 def _excused(arguments: Sequence[str]) -> set[str]:
     """Return the names of the tableaux that need no proof.
 
-    A directory may contain a file ``DECIMAL`` with such names. A line of this file has the form
-    "NAME: reason". A line that begins with # is a comment.
+    The file ``DECIMAL`` of a directory lists these names. Each line has the form "NAME: reason". A line that
+    begins with # is a comment.
     """
     names = set[str]()
     for argument in arguments:
@@ -304,9 +300,9 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
-    In a directory, files without a tableau are skipped. If ``skip_others`` is true, arguments that are files
-    without a tableau are skipped, too. If ``strict`` is true, a file that resembles a tableau is not skipped.
-    The names of skipped files are written to stderr.
+    Other files in a directory are skipped, and their names are written to stderr. If ``skip_others`` is true,
+    files that are given as arguments are skipped by the same rule. If ``strict`` is true, files that resemble
+    a tableau are not skipped.
     """
     for argument in arguments:
         if not argument.strip():
@@ -331,7 +327,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} files of other formats or hidden folders: {shown}", err=True
+                f"skipped {len(below.others)} hidden folders or files of other formats: {shown}", err=True
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -340,7 +336,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print the report on one tableau. It contains the orders, the failing conditions and the properties."""
+    """Print the orders, the failing conditions and the properties of one tableau."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
@@ -387,7 +383,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the coefficients A and B of a 2N storage scheme, which needs two registers."""
+    """Return one line with the coefficients A_i and B_i of a 2N scheme (a scheme with two registers)."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
@@ -412,7 +408,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line about the proof that the equations of the tableau file have a solution."""
+    """Return one line that states what the proof of a tableau file shows."""
     text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
     if not proof.printed:
         return text
@@ -434,7 +430,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print why the method does not have a higher order: the failing conditions, each with its residual."""
+    """Print why the order is not higher. If conditions fail, print them with their residuals."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

@@ -15,7 +15,7 @@ from orderconds.errors import TableauError, UnknownName
 @click.argument("name", shell_complete=completing(tableau_names, files=True))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, as_json: bool) -> int:
-    """Print the BibTeX entry of NAME. NAME is a tableau of the library, a tableau file or a BibTeX key.
+    """Print the BibTeX entry of a source. NAME is a tableau of the library, a tableau file or a BibTeX key.
 
     \b
     Examples:
@@ -50,7 +50,7 @@ def command(name: str, as_json: bool) -> int:
 
 
 def bibliography() -> dict[str, str]:
-    """Map each BibTeX key in the file ``sources.bib`` of the library to its entry.
+    """Return the BibTeX entries of the library's file ``sources.bib`` as a map from keys to entries.
 
     >>> "kutta1901" in bibliography()
     True

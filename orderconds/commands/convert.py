@@ -39,8 +39,8 @@ NAMES = click.Choice(list(FORMATS))
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code. The
-    output contains the same method as the input.
+    """Convert a tableau to another file format. The tableau is given as a file or by its name in the library.
+    Python files are parsed, but never executed.
 
     \b
     Examples:

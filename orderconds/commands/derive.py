@@ -1,5 +1,5 @@
-"""``orderconds derive``: print the order conditions of a family. The conditions are sums over indices,
-or expanded sums for a given number of stages."""
+"""``orderconds derive``: print the order conditions of a family. If the number of stages is given,
+the sums over stages are expanded."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.option(
     "--explicit",
     is_flag=True,
-    help="Expand the sums for explicit methods: a_ij = 0 for j >= i. This option requires --stages.",
+    help="Expand the sums for explicit methods, where a_ij = 0 for j >= i. This option requires --stages.",
 )
 @click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
     "--all",
     "every",
     is_flag=True,
-    help="Print the conditions of all trees, and how dependent conditions follow from independent ones.",
+    help="Print the conditions of all trees. Express the dependent conditions by the independent ones.",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
@@ -48,7 +48,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--json",
     "as_json",
     is_flag=True,
-    help="The same as --format json. The JSON is written to stdout, even if --output is given.",
+    help="The same as --format json. If --output is given, the JSON is also written to stdout.",
 )
 def command(
     family: str,
@@ -63,7 +63,7 @@ def command(
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to the given order.
 
-    With --format latex, the equations fit into a two-column article. They have numbers and labels. The output
+    With --format latex, the equations have numbers and labels, and fit into a two-column article. The output
     also contains the trees and the definitions of all symbols.
 
     \b
@@ -89,7 +89,7 @@ def command(
 
 
 def _text(derivation: Derivation, form: str, explain: bool) -> str:
-    """Return the conditions of a derivation as text in one of the :data:`FORMATS`."""
+    """Return the conditions of a derivation as text. ``form`` is one of :data:`FORMATS`."""
     if form == "json":
         return json_text(_record(derivation, explain)) + "\n"
     with redirect_stdout(io.StringIO()) as printed:
@@ -98,7 +98,7 @@ def _text(derivation: Derivation, form: str, explain: bool) -> str:
 
 
 def _print(derivation: Derivation, form: str, explain: bool) -> None:
-    """Print the conditions of a derivation in one of the :data:`FORMATS`."""
+    """Print the conditions of a derivation. ``form`` is one of :data:`FORMATS`."""
     match form:
         case "json":
             screen.print_json(_record(derivation, explain))
@@ -132,8 +132,7 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:
-    """Print the conditions of an order. With each condition, print its tree, a drawing of the tree, and the
-    elementary differential."""
+    """Print the conditions of one order, and explain the tree of each condition."""
     from orderconds.explain import kinds
 
     kind = kinds.of_family(derivation.family)
