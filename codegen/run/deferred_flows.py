@@ -76,7 +76,11 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     sequence = [_core(plan, ADVANCE, "Apply all flows of one step except the deferred flows.")]
     if deferred.begin is not None:
         sequence.append(
-            _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
+            _core(
+                _plan(plan, deferred.begin),
+                BEGIN,
+                "First flow of a step, if the previous step does not include it.",
+            )
         )
     if deferred.finish is not None:
         about = "Flows that commute with all other flows, applied once for many steps."
