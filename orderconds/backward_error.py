@@ -5,9 +5,9 @@ another field f~, the modified field. The modified field is a series in the step
 f~ = f + h f_2 + h^2 f_3 + ... For a symplectic method, f~ is the vector field of a modified Hamiltonian. The
 method conserves this Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
 
-On a Lie group, the field y -> f(p).y is called the field frozen at the point p. The fields f_2, f_3, ... of a
-Lie group method are sums of elementary differentials along frozen fields and of their commutators (Lundervold
-and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
+fields f_2, f_3, ... are sums of two kinds of terms: elementary differentials along frozen fields, and
+commutators of these differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: a step of the method for the modifying field is the exact
 flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007)
@@ -40,8 +40,9 @@ SERIES = (RungeKuttaFamily, OrderedForestFamily)
 
 
 def default_families() -> tuple[str, ...]:
-    """Return the names of the families that are tried if the user names no family. The first family that
-    accepts the tableau is used.
+    """Return the names of the default families.
+
+    If no family is given, the first default family that accepts the tableau is used.
 
     >>> default_families()
     ('rk', 'cf')
@@ -72,7 +73,7 @@ class ModifiedEquation:
     """The modified field of a method, and the modified Hamiltonian if it is known.
 
     - ``family`` is the label of the method's family.
-    - ``terms`` contains the non-zero terms of the field with powers of the step size h up to h^(order - 1).
+    - ``terms`` contains the non-zero terms of the field up to the power h^(order - 1) of the step size h.
     - ``hamiltonian`` contains the terms of the modified Hamiltonian. The value is None if the method has no
       B-series, or if the field is not proved to be Hamiltonian.
     """
@@ -112,8 +113,8 @@ def modified_equation(
     ``cf``, ``rkmk(1)``). By default, the first family of :func:`default_families` that accepts the tableau is
     used.
 
-    If ``modifying`` is true, return the modifying equation of y' = f(y). A step of the method for this
-    equation is the exact flow of f. Only methods with B-series have a modifying equation here.
+    If ``modifying`` is true, return the modifying equation of y' = f(y). If the method is applied to the
+    modifying equation, one step is the exact flow of f. The method must have a B-series.
 
     Raises :class:`~orderconds.errors.InputError` for an unsuitable family or tableau, and for an order below
     1.
@@ -178,7 +179,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field`` with the given order, in the basis of Lyndon words of ordered trees."""
+    """Yield the terms of ``field`` with the given order, one for each Lyndon word of ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))
@@ -190,7 +191,7 @@ def _ordered(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _place(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of an ordered tree. Larger trees come first."""
+    """Return the sort key of an ordered tree. Trees with more vertices come first."""
     return -len(tree), bytes(255 - level for level in tree)
 
 

@@ -1,4 +1,4 @@
-"""Compute and certify the exact order of a tableau in each family in which its file claims an order.
+"""Compute and certify the order of a tableau in each family in which its file claims an order.
 
 The conditions of order 1, 2, ... are evaluated until a condition fails. A claim fails if the claimed order is
 higher or lower than the computed order.
@@ -9,7 +9,7 @@ that the condition fails. A certificate states how the order was established. Th
 
 - ``exact``: every residual up to the order is zero in an exact ring.
 - ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
-  Each of its coefficients differs from the given decimal by at most one unit of the last digit
+  Each coefficient of this method differs from the given decimal by at most one unit of the last digit
   (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
 - ``double``: the digits of coefficients in double precision support the order, but do not prove it.

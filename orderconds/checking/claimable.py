@@ -1,7 +1,7 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family F is not claimable if the order of the tableau in another family implies the order in F. The method
-:meth:`orderconds.families.Family.claimable` decides whether a family is claimable. The results are:
+If the order of the tableau in another family implies the order in a family F, F is not claimable. Each family
+has a method :meth:`orderconds.families.Family.claimable` that applies this rule. The claimable families are:
 
 - For a Butcher tableau: ``rk``, ``cg`` and ``rkmk``. If no weight is zero, also ``sprk``, ``vcg``, ``vrkmk``.
 - For a commutator-free method: ``rk`` and ``cf``. If no weight is zero, also ``vcf``.

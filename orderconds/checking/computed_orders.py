@@ -1,4 +1,4 @@
-"""The computed orders of a tableau in its claimed families and in its claimable families."""
+"""The computed orders of a tableau in several families."""
 
 from __future__ import annotations
 

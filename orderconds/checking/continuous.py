@@ -65,10 +65,11 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the equation between the coefficients of theta^p in ``condition``.
+    """Return the condition for the coefficients of theta^p in the weights b_i(theta).
 
-    ``condition`` is an equation between polynomials in theta, and its tree has n vertices. The right-hand
-    side is a multiple of theta^n. If p differs from n, the right-hand side of the result is therefore zero.
+    ``condition`` is the order condition for the weights b_i of a method. Its tree has n vertices. For the
+    extension, the right-hand side is multiplied by theta^n, so for p != n the result has the right-hand side
+    zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

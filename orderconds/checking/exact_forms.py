@@ -1,9 +1,10 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
-Each coefficient is compared with fractions of small denominator, then with numbers x + y sqrt(d). Here x and
-y are rational, and d is the same for all coefficients. To the precision of the given digits, the method has
-some order p. The exact numbers are accepted if exact arithmetic proves that they give a method of order at
-least p.
+Each coefficient is compared with fractions of small denominator. If no fraction agrees, the coefficient is
+compared with numbers x + y sqrt(d). Here x and y are rational, and d is the same for all coefficients.
+
+Let p be the order of the given method, to the precision of its digits. The exact numbers are accepted if
+exact arithmetic proves that the exact method has at least the order p.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""The largest accepted value of q^2 u. Here q is the denominator of a fraction, and u is the uncertainty of
-the given number. Above this bound, the fraction may agree with the number by coincidence.
+"""Let q be the denominator of a fraction near a given number, and u the uncertainty of the number. If q^2 u
+exceeds this bound, the fraction is rejected, because it may agree with the number by coincidence.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
@@ -48,10 +49,10 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the tableau with exact coefficients near the given numbers.
+    """Return a tableau with exact numbers instead of the rounded numbers, or None if none is found.
 
-    Return None if no number is rounded, if more than :data:`MAX_NUMBERS` numbers are rounded, if a number is
-    not recognised, or if the order of the exact tableau is not proved.
+    The exact tableau is proved to have at least the order of the given tableau. A tableau with more than
+    :data:`MAX_NUMBERS` rounded numbers is not examined.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -109,7 +110,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 def _fraction(x: Constant) -> Fraction | None:
     """Return the simplest fraction within the uncertainty of x.
 
-    Return None if this fraction may agree with x by coincidence.
+    Return None if the denominator of this fraction is too large (:data:`CHANCE`).
     """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
@@ -144,7 +145,10 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return the value ``x`` of a key in a tableau file, with exact texts for the recognised numbers."""
+    """Replace each number in ``x`` by its exact text, and return the result.
+
+    ``x`` is the value of a key in a tableau file. ``texts`` maps numbers to exact texts.
+    """
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -53,10 +53,10 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if a limit is exceeded.
+        """Return True if the time or the memory exceeds its limit.
 
-        For the number of conditions, the test is made as if ``more`` conditions of the current order had been
-        evaluated.
+        Return True also if ``more`` further conditions of the current order would exceed the limit on
+        conditions.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:
@@ -69,7 +69,7 @@ class Meter:
 def resident_megabytes() -> float:
     """Return the memory that this process uses, in megabytes.
 
-    If the system does not report this number, return the peak memory of the process, or 0 on Windows.
+    If the system does not report this number, return the peak memory of the process. On Windows, return 0.
 
     >>> resident_megabytes() >= 0
     True

@@ -30,13 +30,13 @@ residuals of all failing conditions.
 """
 
 STOPPED = "stopped"
-"""The verdict on an order if a limit ended the check before all its conditions were evaluated."""
+"""The verdict on an order if a limit is reached before all conditions of this order are evaluated."""
 
 DOUBLE = "double"
 """The certificate of an order whose conditions hold to double precision, but are not proved."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
-"""A tree in the encoding of its family, and a function that returns the order condition of the tree."""
+"""The key of a tree, and a function that returns the order condition of the tree."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,10 +49,10 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is None if no limit ended the search. Otherwise it is the last order whose conditions were all
-      checked.
-    - ``stopped`` is None if no limit on work (:class:`~orderconds.checking.limits.Limits`) ended the search.
-      Otherwise it is the number of evaluated conditions.
+    - ``limit``: if the search ended at the search limit of the family or at a limit on work, this is the last
+      order whose conditions were all checked. Otherwise the value is None.
+    - ``stopped``: if the search ended at a limit on work (:class:`~orderconds.checking.limits.Limits`), this
+      is the number of evaluated conditions. Otherwise the value is None.
     """
 
     family: str
@@ -133,8 +133,8 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
-    - ``claimed`` and ``required``: two orders, or None. The search ends at the largest of the orders
-      ``family.search_limit``, ``claimed + 1`` and ``required + 1``, if no condition fails before.
+    - ``claimed`` and ``required``: the claimed order and the required order, or None. No order is evaluated
+      above the largest of ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
     - ``bound``: the result for a family whose conditions are a subset of the conditions of ``family``. The
       order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from these
@@ -160,9 +160,9 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return a tuple with one condition of order ``order`` that the method of ``tableau`` violates.
 
-    For some families and orders, :meth:`~orderconds.families.Family.first_unmet` returns a condition that no
-    method of the family satisfies. The tuple contains this condition. The tuple is empty if no such condition
-    is known, or if the coefficients have too few digits.
+    No method of the family satisfies this condition (:meth:`~orderconds.families.Family.first_unmet`). If no
+    such condition is known, the tuple is empty. If the coefficients have too few digits to prove the
+    violation, the tuple is also empty.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -190,9 +190,9 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest absolute residual of each batch of conditions in which no condition fails.
+    """The largest absolute residual of each batch of conditions.
 
-    The value is None if the coefficients are not doubles.
+    Batches with a failing condition are omitted. If the coefficients are not doubles, the value is None.
     """
 
     def run(
@@ -223,10 +223,9 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Evaluate the conditions of order n, and return three values.
+        """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
 
-        The values are the set of verdicts that occur, the failing conditions, and a flag. The flag is false
-        if conditions may be missing from the failing conditions. ``unlikely`` is true if n exceeds the
+        The flag is true if the failing conditions are complete. ``unlikely`` is true if n exceeds the
         expected order. Most conditions then probably fail. ``decimal`` is true if the certificate up to order
         n - 1 is ``decimal``.
         """
@@ -235,9 +234,9 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if a theorem derives it from conditions that hold exactly. A ball that
-        # contains zero does not prove that a condition holds. With balls, conditions are therefore skipped
-        # only if ``decimal`` is true. The order is then not proved, with or without skipped conditions.
+        # A condition is skipped if a theorem derives it from other conditions that hold exactly. Balls do not
+        # prove that the other conditions hold. If ``decimal`` is true, the order is not proved in any case,
+        # and conditions are skipped with balls, too.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

@@ -26,7 +26,7 @@ class Refinement:
     - ``pinned`` contains the names of the coefficients whose digits did not change.
     - ``proof`` certifies that the equations have a solution near the new decimals.
 
-    For other files, ``exact`` maps the names of doubles and rounded decimals to exact numbers.
+    For other files, ``exact`` maps the name of each replaced coefficient to its exact value.
     """
 
     tableau: Tableau
@@ -48,12 +48,12 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     """Make the coefficients of a tableau exact or more precise.
 
     ``tableau`` is a tableau, a file, or a name of the library. If the file has a table ``[proof]`` with
-    equations for the decimals, the new decimals have ``digits`` proved places (10 to 1000). In a file without
-    this table, fractions or numbers p + q sqrt(d) replace the doubles and the rounded decimals. The order of
-    the method does not decrease.
+    equations for the decimals, the new decimals have ``digits`` proved places (10 to 1000). Without this
+    table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with rational p and q.
+    The order of the method does not decrease.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if the proof of a solution near the decimals fails,
-    or if no exact numbers are found.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if it is not proved that the equations have a
+    solution near the decimals, or if no exact numbers are found.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

@@ -29,12 +29,12 @@ class EmbeddedOrder(Struct, frozen=True):
     An embedded method uses the stages of the main method. It has its own weights, or its own update by
     exponentials.
 
-    - ``own`` is the label of the family for the claimed order: ``rk`` for a method with weights, and ``cf``
-      for a method with an update by exponentials.
+    - ``own`` is the label of the family in which the order is claimed: ``rk`` for a method with weights, and
+      ``cf`` for a method with an update by exponentials.
     - ``claimed`` is the claimed order in the family ``own``.
     - ``orders`` maps the labels of families to computed orders.
     - ``certificates`` maps the labels of families to the certificates of the computed orders.
-    - ``failing`` contains the failing conditions of the order after ``orders[own]`` in the family ``own``.
+    - ``failing`` contains the failing conditions of order ``orders[own] + 1`` in the family ``own``.
     """
 
     claimed: int
@@ -81,7 +81,8 @@ class RegisterForm(Struct, frozen=True):
 
     On a group, stage i of the scheme updates the registers K and Y: K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
 
-    - ``holds`` states whether the scheme exists. The value is None if rounded decimals do not decide this.
+    - ``holds`` states whether the scheme exists. If rounded decimals do not decide the question, the value is
+      None.
     - ``space`` states where the scheme is equal to the method: on a ``group`` or a ``vector space``.
     - ``A`` and ``B`` are the coefficients A_i and B_i as text.
     - ``reason`` states why no such scheme exists. If the scheme exists, ``reason`` is empty.
@@ -104,12 +105,12 @@ class RegisterForm(Struct, frozen=True):
 class SymmetryOrder(Struct, frozen=True):
     """The largest order q to which a method is symmetric.
 
-    A step of size h, followed by a step of size -h, differs from the identity by O(h^(q + 1)).
+    The composition of a step of size h and a step of size -h differs from the identity by O(h^(q + 1)).
 
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
     - ``order`` is q, or None if the method is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
-    - ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
+    - ``certificate`` is ``exact``, or ``decimal`` if rounded coefficients do not prove the order.
     """
 
     family: str
@@ -131,8 +132,9 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` contains a message for each failure, for example for a claimed property that the method
-    does not have. Wrong orders of the main method are not included: they are found in ``orders``.
+    ``orders`` contains the orders of the main method, with a verdict on each claimed order. ``broken_claims``
+    contains a message for every other failure, for example for a claimed property that the method does not
+    have.
     """
 
     name: str
@@ -178,11 +180,10 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The largest order to which the method is symmetric, if the method is effectively symmetric.
+        """The order of symmetry of an effectively symmetric method. For other methods, the value is None.
 
         Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
-        method is symmetric to a higher order than q, but not to all orders. For other methods, the value is
-        None.
+        method is symmetric to a higher order than q, but not to all orders.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball around zero supports a condition of order n if its radius is at most RESOLUTION/n!."""
+"""The residual of a condition of order n may be a ball that contains zero. If the radius of this ball is at
+most RESOLUTION/n!, the verdict is ``supported``."""
 
 BITS = 256
 """The precision of the balls in bits."""
@@ -172,8 +173,7 @@ _ENCLOSED = Memo(_enclosed)
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
     """Return True if rational numbers suffice to compute exact residuals.
 
-    The coefficients of the method are elements of the number field ``ring``. Ball arithmetic is not used if
-    rational numbers suffice, because rational arithmetic is faster.
+    The coefficients of the method are elements of the number field ``ring``.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
@@ -217,6 +217,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # For other rings, ``is_zero`` never returns None.
+    assert isinstance(ring, Balls)  # In other rings, ``is_zero`` returns True or False.
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

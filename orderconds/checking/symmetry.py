@@ -22,16 +22,19 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The test of symmetry uses rooted trees with at most MOST_ROOTED vertices, or forests of ordered trees with
-at most MOST_ORDERED vertices."""
+"""The largest number of vertices in the test of symmetry. For Runge-Kutta methods, the test uses rooted trees
+with at most MOST_ROOTED vertices. For commutator-free methods, it uses forests of ordered trees with at most
+MOST_ORDERED vertices."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
     """Return the order to which a Runge-Kutta or commutator-free method is symmetric.
 
-    Return None for other methods. If ``symmetric`` is True, the method is known to be symmetric, and the
-    field ``order`` of the result is None. Runge-Kutta methods are examined on vector spaces, and
-    commutator-free methods on groups.
+    Return None for other methods. The result is valid on vector spaces for Runge-Kutta methods, and on groups
+    for commutator-free methods.
+
+    ``symmetric`` is True if the method is known to be symmetric. In this case, the field ``order`` of the
+    result is None.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -54,10 +57,10 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return four values: the label of the family, the series of a step, a function and a limit.
+    """Return the label of the family, the series of one step, a function ``trees`` and the largest n.
 
-    The function yields the trees with n vertices. The limit is the largest n that is evaluated. Return None
-    if the tableau is neither a Runge-Kutta method nor commutator-free.
+    ``trees(n)`` yields the trees or forests with n vertices. The series is tested up to the largest n. Return
+    None if the tableau is neither a Runge-Kutta method nor commutator-free.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

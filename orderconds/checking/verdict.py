@@ -41,15 +41,15 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` in each family in which its file claims an order.
+    """Compute the order of ``tableau`` in each family in which its file claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
     - ``family``: check only this family, such as ``"vcg"`` or ``"rkmk(1)"``. A claim is not necessary.
-    - ``order``: the least acceptable order. If it is given, the claimed orders are ignored.
+    - ``order``: the least acceptable order. If ``order`` is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
-    - ``tolerance``: the uncertainty of a coefficient x that is a double, in units of 2^-53 max(1, |x|).
+    - ``tolerance``: the uncertainty of each double x, in units of 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
@@ -94,10 +94,10 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Return the scheme with two registers that is equal to the method.
+    """Find the scheme with two registers that is equal to the method.
 
-    If no such scheme exists, the result contains the reason. Return None if the method is neither a
-    Runge-Kutta method nor a commutator-free method.
+    The result contains the scheme, or the reason why no such scheme exists. Return None if the method is
+    neither a Runge-Kutta method nor a commutator-free method.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -115,9 +115,9 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return the order and the tolerance as numbers.
+    """Check the three arguments, and return the order and the tolerance as numbers.
 
-    Raise InputError if one of the three arguments has a wrong type or a wrong value.
+    Raise InputError if an argument has a wrong type or a wrong value.
     """
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
@@ -183,10 +183,10 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that an exact solution exists near the decimals of the file, and a list of error
-    messages.
+    """Return a proof about the decimals of the file, and a list of error messages.
 
-    Return (None, []) if the file has no table ``[proof]`` with equations for the decimals.
+    The table ``[proof]`` of the file contains equations for the decimals. The proof states that the equations
+    have an exact solution near the decimals. Return (None, []) if the file has no such table.
     """
     if tableau.proof is None:
         return None, []
@@ -208,7 +208,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family of ``wanted``. High orders are derived by theorems where possible."""
+    """Return the order in each family of ``wanted``."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -228,8 +228,8 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau, a family that can read the tableau, and the order that is claimed in this family. Without a
-claim, the order is None.
+"""A tableau, a family that accepts the tableau, and the claimed order in this family. Without a claim, the
+order is None.
 """
 
 
@@ -247,8 +247,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     """Return families whose orders imply bounds of the orders in other families.
 
-    Families with a label in ``labels`` are omitted. If the tableau is equal to a composition of midpoint
-    rules, the families of this composition are included.
+    Families with a label in ``labels`` are omitted. Some Runge-Kutta methods are compositions of midpoint
+    rules. For these methods, families of compositions are included.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -264,7 +264,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine by theorems the order that a search did not find, because the search reached a limit.
+    """Determine an order by theorems, after a search for this order reached a limit.
 
     ``ended`` is the result of the search. Return ``ended`` if no theorem determines the order.
     """
@@ -282,11 +282,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the best upper bound of the order in ``family``, or None if there is none.
+    """Return the smallest computed order that is an upper bound of the order in ``family``.
 
-    Suppose that the conditions of a family G are a subset of the conditions of ``family``. A method that
-    violates a condition of G then also violates a condition of ``family``. The order in G is therefore an
-    upper bound.
+    The order in a family G is an upper bound if every condition of G is also a condition of ``family``.
+    Return None if no computed order is an upper bound.
     """
     if not computed:
         return None
@@ -298,8 +297,7 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to computed orders. Omit an order if the coefficients have too few digits to
-    decide it."""
+    """Map the labels of families to computed orders. Omit undecided orders."""
     return {f.family: f.order for f in computed if f.decided}
 
 
@@ -313,8 +311,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` that the orders in other families imply.
 
-    Return None if they imply no order, or an order below ``family.search_limit``. Then :func:`family_order`
-    computes the order.
+    Return None if the orders in other families imply no order of at least ``family.search_limit``.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -443,9 +440,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    The orders in the messages are computed from ``enclosed``. If the decimals of ``tableau`` are proved to
-    approximate an exact method, the coefficients of ``enclosed`` are balls (intervals) that contain the exact
-    coefficients. Without a proof, ``enclosed`` is ``tableau``.
+    ``tableau`` is the tableau of the file. The orders in the messages are the orders of ``enclosed``. If the
+    decimals are proved to approximate an exact method, the coefficients of ``enclosed`` are balls (intervals)
+    that contain the exact coefficients. Without a proof, ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 
