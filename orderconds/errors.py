@@ -7,10 +7,10 @@ from __future__ import annotations
 
 
 class InputError(Exception):
-    """The error for input that is not valid, or for a command that is used wrongly.
+    """The error for invalid input, and for the wrong use of a command.
 
     ``found`` describes the problem, ``where`` is the file, key or option, ``expected`` describes valid
-    input, and ``hint`` is a suggestion. The message consists of these texts. It omits empty texts.
+    input, and ``hint`` is a suggestion. The message contains the texts that are not empty.
     """
 
     def __init__(self, found: str, *, where: str = "", expected: str = "", hint: str = "") -> None:

@@ -1,10 +1,15 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-The text of an imported tableau is never executed as code. If a method is exported and imported again,
+An imported file is executed as code only at the user's request. If a method is exported and imported again,
 its coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
-file. The other formats omit the table ``[proof]``. Floats in a NumPy archive are doubles. A decimal from
-another program counts as a double if it is the printed form of a double. Any other decimal counts as rounded
-(``~``) if it has at least 12 significant digits. A shorter decimal is exact.
+file. The other formats omit the table ``[proof]``.
+
+A number from another program is a double, a rounded decimal or exact:
+
+- A float in a NumPy archive is a double. A short binary fraction, such as 0.375, is exact instead.
+- A decimal with the digits of a printed double is a double.
+- Other decimals with at least 12 significant digits are rounded (suffix ``~``).
+- Shorter decimals are exact.
 """
 
 from __future__ import annotations
@@ -30,15 +35,14 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""Maps each format to a module with functions ``write`` and ``read``, and to the suffix of its files."""
+"""For each format, the module that reads and writes files of this format, and the suffix of the files."""
 
 
 def export(data: Data, to: str) -> bytes:
     """Return a tableau as the content of a file in the format ``to``.
 
-    To find errors, this function reads the content and compares the result with the given tableau. Raises
-    :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
-    represent.
+    Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
+    cannot represent. This function reads the content again to verify that the tableau is the same.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -75,7 +79,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data``, and add the name and the order of the embedded method if they are missing."""
+    """Return ``data``. Add ``name`` to a tableau without a name, and compute a missing embedded order."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -102,7 +106,7 @@ PYTHON = "sympy"
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
-    """Return the tableau in a file. Return None if the suffix is ``.toml`` or unknown.
+    """Return the tableau in a file. Return None for the suffix ``.toml`` and for an unknown suffix.
 
     A tableau without a name is named after the file. A Python module is executed only if ``execute`` is true.
 

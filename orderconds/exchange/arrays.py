@@ -6,11 +6,11 @@ The names of the arrays depend on the family:
 - ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. Each stage applies a product of exponentials to a start value. The
-  update and the embedded update have the same form. Each row of ``exponentials`` contains the coefficients of
-  one exponential. ``count`` contains the number of exponentials in each product. ``start`` contains a number
-  for each product: 0 if the start value is y0, and i if the start value is stage i. The order of the products
-  is: all stages, the update, the embedded update.
+- ``cf``: exponentials, count and start. The method contains several products of exponentials: one product
+  for each stage, one for the update, and one for the embedded update. The arrays contain the products in this
+  sequence. Each row of ``exponentials`` contains the coefficients of one exponential. For each product,
+  ``count`` contains the number of exponentials. ``start`` contains the value that the product acts on: 0
+  means y0, and i means stage i.
 
 The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
 """
@@ -34,7 +34,7 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""A map from names to values. A value is a text (name, family, ...), a vector or a matrix of coefficients."""
+"""A map from names to values. A value is a text, a vector of coefficients or a matrix of coefficients."""
 
 TABLES = ("numbers", "claims")
 """Tables of a tableau file that are stored as JSON text."""
@@ -42,17 +42,17 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""A decimal in a file of another program counts as rounded if it has at least 12 significant digits.
+"""In a file of another program, a decimal with at least 12 significant digits is rounded or a double.
 
-A shorter decimal, such as 0.5, counts as exact.
+A shorter decimal, such as 0.5, is exact.
 """
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
     """Return the arrays of a tableau. ``data`` contains the keys and values of the tableau file.
 
-    Raises :class:`TableauError` for a family whose methods cannot be represented by arrays. The error
-    message contains ``target``, the name of the output format.
+    Raises :class:`TableauError` if arrays cannot represent the methods of the family. The error message
+    contains ``target``, the name of the output format.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -88,7 +88,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 def data_without_names(tableau: Tableau) -> Data:
     """Return a tableau as keys and values, with formulas in place of the names of numbers.
 
-    If a named number is a root of a polynomial without a formula, the name remains. Fractions are in lowest
+    A root keeps its name if the tableau defines it by a polynomial (``minpoly``). Fractions are in lowest
     terms. Rounded coefficients have the same digits as in the file of the tableau.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
@@ -105,10 +105,10 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return a coefficient as the text for an exported file. A long exact decimal becomes a fraction.
+    """Return a coefficient as the text for an exported file.
 
-    The import of the file would take a decimal of 12 or more digits as rounded (see :data:`ROUNDED`).
-    A decimal that ends with ``~`` is rounded already, and is not changed.
+    An exact decimal with at least 12 significant digits becomes a fraction, because the import does not read
+    such decimals as exact (see :data:`ROUNDED`). A rounded decimal (suffix ``~``) does not change.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
@@ -181,7 +181,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error if a value has the wrong type for its name. The type is text, vector or matrix."""
+    """Raise an error if a value is not the text, vector or matrix that its name requires."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):
@@ -199,7 +199,7 @@ def _stages(entries: Arrays, where: str) -> Data:
     missing = [key for key in ("count", "start", "exponentials") if key not in entries]
     if missing:
         raise TableauError(
-            f"no array {missing[0]}", where=where, expected="the arrays count, start and exponentials"
+            f"no array {missing[0]}", where=where, expected="the arrays 'count', 'start' and 'exponentials'"
         )
     rows, products = list(entries["exponentials"]), []
     counts, starts = ([_integer(x, where) for x in entries[key]] for key in ("count", "start"))
@@ -222,9 +222,10 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a tableau file. If the key ``family`` is missing, add it.
+    """Return ``data`` with the key ``family``.
 
-    The family is determined from the names of the arrays. Without arrays, the key remains missing.
+    If the key is missing, the names of the arrays determine the family. If ``data`` contains no arrays,
+    ``data`` is returned unchanged.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -265,11 +266,11 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a number from another program's file as a coefficient without exponent.
+    """Return a number from another program's file as the text of a coefficient, without exponent.
 
-    A decimal that was probably printed from a double becomes a double
-    (:func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
-    become rounded decimals.
+    If a decimal was probably printed from a double, the result is this double (see
+    :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
+    become rounded decimals (suffix ``~``).
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

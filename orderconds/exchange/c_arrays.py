@@ -1,7 +1,7 @@
-"""C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
+"""C arrays of correctly rounded doubles. A comment beside a rounded number contains the exact value.
 
-The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a comment
-beside a number contains the exact value, the comment is read instead of the number.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a number has
+such a comment, the result contains the exact value.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _TOKEN = re.compile(r"/\*|//|[{}\"]")
 
 
 def write(data: Data) -> bytes:
-    """Return C definitions. The name of every array begins with the name of the tableau.
+    """Return the arrays as C definitions. The name of every array begins with the name of the tableau.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     static const double m_b[1] = {1.0};
@@ -93,10 +93,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return two values. The first is the C source without strings and without comments outside arrays. The
-    second is the list of the comments before the first array.
+    """Return the C source, and the list of the comments before the first array.
 
-    Comments ``/* ... */`` inside arrays remain in the source, because they contain exact values of numbers.
+    Strings and most comments are removed from the source. Comments ``/* ... */`` inside arrays remain,
+    because these comments contain exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

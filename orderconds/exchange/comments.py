@@ -1,7 +1,7 @@
 """Write the texts of a tableau, such as its name, as comments of source files. A comment is one line.
 
-Backslashes, line breaks and control characters are escaped as in Python. In ``*/`` and ``/*``, which
-delimit comments in C, a backslash precedes the slash.
+A backslash is doubled. A line break or a control character becomes its code, such as ``\\u000a``. The
+delimiters of C comments become ``*\\/`` and ``\\/*``.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Return True for control characters, format characters, and separators of lines or paragraphs."""
+    """Return True for control and format characters, surrogates, and separators of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

@@ -1,4 +1,4 @@
-"""A tableau as text or bytes in one of the formats of :mod:`orderconds.exchange`."""
+"""Convert a tableau to one of the formats of :mod:`orderconds.exchange`, as text or bytes."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     """Return a tableau in the format ``to``: toml, json, csv, sympy, latex, c or numpy.
 
-    The result is bytes for the format numpy, and text for all other formats. ``tableau`` may also be a file
-    or a name of the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a
-    method that the format cannot represent.
+    The result is bytes for the format numpy, and text for all other formats. ``tableau`` may also be
+    the path of a file, or the name of a tableau in the library. Raises
+    :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
+    represent.
 
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1
@@ -35,8 +36,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return a copy of ``data``. In lists and tables, a text such as ``1``, ``0.5`` or ``0.5d`` becomes a
-    float."""
+    """Return a copy of ``data``. In lists and tables, floats replace integers and decimals that are texts."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

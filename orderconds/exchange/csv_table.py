@@ -1,9 +1,12 @@
-"""CSV tables. A line contains the name and the entries of a vector, or of one row of a matrix.
+"""CSV tables, in one of two forms:
 
-Instead of these lines, a file may contain a plain Butcher tableau, in the layout of textbooks. For each stage
-i, one line contains c_i and row i of A. The line below the stages begins with an empty cell and contains the
-weights b. One more line with an empty first cell may contain embedded weights. Empty cells elsewhere are
-zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
+- Named arrays: each line begins with the name of a vector or a matrix. The other cells contain the vector or
+  one row of the matrix.
+- A plain Butcher tableau, as in textbooks: for each stage i, one line contains c_i and row i of A. The next
+  line contains an empty cell and the weights b. One more line may contain an empty cell and embedded weights.
+  Other empty cells are zeros.
+
+Cells are separated by commas, semicolons or tabs. Comments (``#`` or ``%``) and a header are ignored.
 
 The line ``order,4`` claims order 4 in the family of the tableau. The line ``claims,rk=4`` claims order 4 in
 the family ``rk``. The line ``embedded_order,3`` states the order of the embedded weights.
@@ -32,7 +35,7 @@ from orderconds.tableau.file_format import Data
 NAMES = (*TEXTS, *ROWS, *MATRICES)
 """The names that may be in the first cell of a line of a CSV file."""
 WEIGHTS = ("b", "embedded_b")
-"""Names that a Butcher tableau may contain in place of the empty cell before the weights."""
+"""Names that may replace the empty first cell of a line of weights in a plain Butcher tableau."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -87,10 +90,10 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a CSV table is read as a plain Butcher tableau.
+    """Return True if a CSV table is a plain Butcher tableau.
 
-    This is the case under two conditions. No row begins with the name of a matrix. At least one row begins
-    with a cell that is not in ``NAMES``, such as a number or an empty cell.
+    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a number, an
+    empty cell or another text that is not in ``NAMES``.
     """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)

@@ -21,8 +21,8 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a text file in a folder of tableaux. The file lists tableaux that need no proof of their order
-when ``orderconds check`` verifies the folder."""
+"""The name of a text file in a folder. The file lists the tableaux in the folder that need no proof of their
+order, even with ``orderconds check --certified``."""
 
 NO_KEY = "contains no key of a tableau, such as family, A or b"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -42,13 +42,14 @@ class Folder:
     tableaux: list[str] = field(default_factory=list)
     skipped: list[tuple[str, str]] = field(default_factory=list)
     others: list[str] = field(default_factory=list)
-    """Names of hidden folders, and of files whose suffix belongs to no format."""
+    """Names of hidden folders, and names of files with an unknown suffix."""
 
 
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, files that resemble tableaux count as tableaux.
+    If ``strict`` is true, the tableaux include files that only resemble a tableau
+    (see :func:`reason_to_skip`).
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -91,9 +92,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, so that the user sees the error. By default, a file that only resembles a
-    tableau is skipped. An example is a JSON file that contains a matrix under an unknown key. If ``strict``
-    is true, such a file must be read.
+    A damaged file must be read, so that the user sees the error. Some files resemble a tableau but contain
+    none of its names, such as a JSON file with a matrix under an unknown key. These files are skipped by
+    default. If ``strict`` is true, they must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
@@ -112,7 +113,7 @@ def _reason(path: str | Path) -> Reason | None:
         content = bytes_of(path)
     except InputError:
         return None
-    return _REASONS[of](content) if of in _REASONS else Reason("the suffix belongs to no known format")
+    return _REASONS[of](content) if of in _REASONS else Reason("the file has an unknown suffix")
 
 
 def _of_json(content: bytes) -> Reason | None:
@@ -128,7 +129,7 @@ def _of_json(content: bytes) -> Reason | None:
 
 
 def _is_matrix(value: object) -> bool:
-    """Return True if a value is a list of rows with numbers."""
+    """Return True if a value is a list of rows, and some row contains a number or a text."""
     if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
         return False
     return any(isinstance(x, int | float | str) for row in value for x in row)
@@ -169,7 +170,7 @@ def _of_python(content: bytes) -> Reason | None:
 
 def _of_latex(content: bytes) -> Reason | None:
     match = _LATEX.search(content.decode(errors="replace"))
-    return None if match else Reason("no Butcher tableau and no matrix A")
+    return None if match else Reason("no Butcher tableau, and no matrix A, gamma, alpha or exponentials")
 
 
 def _of_c(content: bytes) -> Reason | None:
@@ -185,4 +186,4 @@ _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "latex": _of_latex,
     "c": _of_c,
 }
-"""Maps each format to a function that returns the reason to skip a file, or None if the file must be read."""
+"""For each format, a function that returns the reason to skip a file, or None if the file must be read."""

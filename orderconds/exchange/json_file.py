@@ -1,8 +1,8 @@
 """JSON files, which contain the same keys and values as a tableau file in TOML.
 
 A short decimal, such as ``0.5``, is exact. A decimal with the digits of a printed double, such as
-``0.3333333333333333``, is a double. If a file states no family, the family is determined from the arrays. The
-value of the key ``claims`` may be a text such as ``"rk=4"``.
+``0.3333333333333333``, is a double. If the key ``family`` is missing, the names of the arrays determine the
+family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def write(data: Data) -> bytes:
 def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
-    If the key ``family`` is missing, the family is determined from the arrays. A number with a decimal point
-    or an exponent becomes a text. This text ends with ``d`` if the number has the digits of a printed double.
+    If the key ``family`` is missing, the names of the arrays determine the family. A number with a decimal
+    point or an exponent becomes a text (see :func:`~orderconds.exchange.arrays.coefficient`).
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

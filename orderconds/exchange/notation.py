@@ -1,4 +1,4 @@
-"""Convert a coefficient of a tableau file to SymPy source. Convert SymPy source or LaTeX to a coefficient.
+"""Convert coefficients of tableau files to SymPy source, and SymPy source or LaTeX to coefficients.
 
 The conversion of a coefficient to LaTeX is in the module :mod:`orderconds.tableau.coefficient_latex`.
 """
@@ -28,11 +28,11 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source, with the parentheses that its place in a larger expression requires.
+    """Return x as Python source, in parentheses if the larger expression around x requires them.
 
-    ``tight`` describes the place: it is 1 for the first factor of a product and after a minus sign, 2 for
-    other factors and divisors, and 0 elsewhere. A sum is in parentheses if ``tight`` is positive, a product
-    if ``tight`` is 2.
+    ``tight`` depends on the place of x in the larger expression. For the first factor of a product, and after
+    a minus sign, ``tight`` is 1. For other factors and divisors, ``tight`` is 2. Elsewhere, ``tight`` is 0.
+    Parentheses enclose a sum if ``tight`` is 1 or 2, and a product if ``tight`` is 2.
     """
     if isinstance(x, Constant):
         if x.is_double:

@@ -2,8 +2,8 @@
 The array ``A_exact`` contains the exact values as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
-An array ``order`` with the value 4 claims order 4 in the family of the tableau. An array ``claims`` contains
-claims as a text, such as ``rk=4``.
+The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains
+claims for any family as a text, such as ``rk=4``.
 """
 
 from __future__ import annotations
@@ -121,8 +121,8 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an archive, and return it as the keys and values of a tableau file.
 
-    An archive can contain a matrix of doubles, such as ``A``, and an array ``A_exact`` of exact values as
-    text. This function raises an error if a double is not the one nearest to the exact value.
+    If the archive contains the doubles ``A`` and the exact values ``A_exact``, the exact values are returned.
+    Raises TableauError if an entry of ``A`` is not the double nearest to the exact value.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -179,7 +179,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Require a vector or a matrix of integers or doubles. Raise an error for all other arrays."""
+    """Raise an error if an array is not a vector or a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} has {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":
