@@ -8,7 +8,7 @@
 70     an internal error: a fault of this program
 129    stopped by the signal SIGHUP
 130    interrupted by Ctrl-C
-141    the output is a pipe that ``head`` or another program closed; no message
+141    another program, such as ``head``, closed the output pipe; no message
 143    stopped by the signal SIGTERM
 =====  ===============================================================================
 """
@@ -48,7 +48,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """An exception that replaces KeyboardInterrupt or BrokenPipeError. ``cause`` is the replaced one."""
+    """An exception that replaces ``cause``, a KeyboardInterrupt or BrokenPipeError."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -119,7 +119,7 @@ class Run:
         """Print the message of an error. If the option ``--json`` is given and this run has printed no JSON
         document, print the error as JSON, too.
         """
-        with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
+        with contextlib.suppress(OSError):  # A failed output must not change the exit status.
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
@@ -167,8 +167,8 @@ def _usage_message(error: click.UsageError) -> str:
 def past_click() -> Iterator[None]:
     """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click would catch these two exceptions. It does not catch :class:`Stopped`, so this program
-    can choose the message and the exit status.
+    The library click catches these two exceptions, but not :class:`Stopped`. Thus, this program chooses the
+    message and the exit status.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -182,14 +182,14 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device, because stdout is a closed pipe."""
+    """Redirect stdout to the null device. Otherwise, Python reports the closed pipe when it exits."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Install signal handlers that raise :class:`Terminated`. If the same signal arrives again, it ends the
-    program at once."""
+    """Install signal handlers that raise :class:`Terminated`. A second signal of the same kind ends
+    the program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -197,7 +197,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # A command such as nohup starts this program with an ignored signal. The signal remains ignored.
+        # If the caller ignores a signal, as nohup ignores SIGHUP, the signal remains ignored.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

@@ -3,9 +3,9 @@
 The file is parsed, not executed. The function :func:`read` evaluates the assignments at the top level one
 after another. An assignment may contain lists, tuples, numbers, arithmetic, square roots and names from
 earlier assignments. It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and
-``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if a
-statement that may change an array of the tableau cannot be evaluated. At the user's request,
-:mod:`orderconds.exchange.python_module` executes the file instead.
+``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. Some statements
+cannot be evaluated. If such a statement may change an array of the tableau, the file is refused. With the
+option ``--execute``, :mod:`orderconds.exchange.python_module` executes the file.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if nothing in a valid Python module resembles a tableau.
+    """Return True if no assignment in a module resembles a tableau. Return False for invalid Python source.
 
     An assignment to A, a or b resembles a tableau if its right-hand side contains a list or a tuple.
 
@@ -109,7 +109,7 @@ def _decoded(content: bytes, where: str) -> str:
 def _parsed(text: str, where: str) -> ast.Module:
     try:
         with warnings.catch_warnings():
-            # Warnings are ignored, because Python warns about unusual literals in the user's module.
+            # Without this filter, Python would print warnings about literals in the user's module.
             warnings.simplefilter("ignore")
             return ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as problem:
@@ -130,7 +130,7 @@ def _header(text: str) -> Arrays:
 
 
 def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
-    """Yield each variable to which a statement assigns a value, and the expression for the value."""
+    """Yield the variables of an assignment, each with the expression on the right-hand side."""
     if isinstance(statement, ast.Assign):
         for target in statement.targets:
             if isinstance(target, ast.Name):
@@ -146,8 +146,8 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 def _follow(statement: ast.stmt, values: Values) -> None:
     """Evaluate one statement at the top level of the module, and store the new values of names.
 
-    If an expression cannot be evaluated, the assigned variable has an unknown value. After a loop or another
-    unsupported statement, the values of all variables in the statement are unknown.
+    If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops are not
+    evaluated: all variables in a loop become unknown.
     """
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
@@ -185,10 +185,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_harmless(statement: ast.Expr) -> bool:
-    """Return True if a statement changes no value.
-
-    This is true for a constant, such as a docstring, and for a call of ``print``.
-    """
+    """Return True if a statement is a constant, such as a docstring, or a call of ``print``."""
     value = statement.value
     if isinstance(value, ast.Call):
         return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
@@ -196,13 +193,13 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Return True if the condition of an ``if`` statement contains ``__name__``. Such a statement is
-    skipped, because it usually runs only in a script."""
+    """Return True if the condition of an ``if`` statement contains ``__name__``. The body of such
+    a statement usually runs only in a script."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
 def _targets_are_names(statement: ast.stmt) -> bool:
-    """Return True if a statement assigns only to variables. ``A[0] = 1`` and ``x.y = 1`` give False."""
+    """Return True if a statement assigns only to variables. Return False for ``A[0] = 1`` and ``x.y = 1``."""
     if isinstance(statement, ast.AnnAssign):
         return True
     return isinstance(statement, ast.Assign) and all(
@@ -213,8 +210,8 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return True on success, and False for
-    other statements."""
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return True on success, and False
+    otherwise."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []

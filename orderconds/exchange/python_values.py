@@ -28,10 +28,10 @@ NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal",
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays in which all entries have the same type. In an array of integers, for example, no
-entry can be changed to 1/2."""
+entry can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""The value of an array is unknown if its ``dtype`` contains one of these texts, as ``float32`` and ``int64``
-do. Such types cannot store all doubles, or they are complex."""
+"""If a ``dtype`` contains one of these texts, as ``float32`` and ``int64`` do, the array is not evaluated.
+These types are complex or cannot store all doubles."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -50,8 +50,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """An unknown value: its expression cannot be evaluated. ``reason`` describes the expression. ``line`` is
-    the line number of the expression."""
+    """The value of an expression that cannot be evaluated. ``reason`` is the obstacle, such as a call of an
+    unknown function. ``line`` is its line number."""
 
     reason: str
     line: int
@@ -73,8 +73,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. Comments at the beginning of the source may define numbers.
-    ``named`` contains the names of these numbers.
+    ``text`` is the source of the module. Comments in the source may define numbers, whose names are in
+    ``named``.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -86,8 +86,8 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """A map from imported names to names of functions. After ``from sympy import Rational as R``, this map
-    contains the entry ``R`` with the value ``Rational``.
+    """A map from an imported name to the original name of the function. After
+    ``from sympy import Rational as R``, the key ``R`` has the value ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
@@ -108,8 +108,8 @@ class Values:
             self.known[name] = value
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
-        """Assign a value to the entry with the indices ``place``. Return False if the entry does not exist or
-        cannot store the value, or if the value is an array."""
+        """Assign a value to the entry with the indices ``place``. Return True on success, and False
+        otherwise."""
         target = self.known.get(name)
         for k, index in enumerate(place):
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
@@ -123,8 +123,7 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Mark the values of ``names`` as unknown. If such a value is an array, it also becomes unknown under
-        each other name that refers to the same array."""
+        """Mark the variables ``names`` as unknown, and all variables that share an array with them."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -169,8 +168,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the digits of a number from the source, because the syntax tree contains only the nearest
-        double."""
+        """Return a decimal as it appears in the source. The syntax tree contains only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -188,9 +186,12 @@ class Values:
         if isinstance(node.op, ast.Pow):
             exponent = rational(self._number(node.right))
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
-                raise _NotLiteral(node, "an exponent that is not a fraction p/q with |p| <= 64 and q <= 24")
+                raise _NotLiteral(
+                    node,
+                    "an exponent that is not a simple fraction (numerator up to 64, denominator up to 24)",
+                )
             return Power(self._number(node.left), exponent)
-        # A loop collects the operands, because recursion into a long sum could exceed Python's limit.
+        # A loop replaces recursion, because a long sum or product could exceed Python's recursion limit.
         signs: list[str] = []
         operands: list[ast.expr] = []
         first: ast.expr = node
@@ -242,7 +243,7 @@ def _class(operator: ast.operator) -> str:
 
 
 def _require_doubles(node: ast.Call) -> None:
-    """Raise an error if the argument ``dtype`` of a call contains one of the texts in :data:`NARROW`."""
+    """Raise an error if a call has a ``dtype`` such as ``float32`` (:data:`NARROW`)."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
             raise _NotLiteral(node, "an array whose type is not float64")
@@ -282,8 +283,8 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return the fraction that an expression such as 1/3 or -0.5 represents. Return None if this function
-    cannot compute a fraction, for example for roots, sums and rounded decimals.
+    """Return the fraction that an expression such as 1/3 or -0.5 represents. Return None for other
+    expressions, such as roots and rounded decimals.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

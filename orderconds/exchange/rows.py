@@ -25,7 +25,8 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """True if the first cell of the header is not ``c``. Such a table is certainly not a tableau."""
+        """True if the table has a header that does not begin with ``c``. Headers of tableaux begin with
+        ``c``."""
         return bool(self.header) and self.header[0] != "c"
 
 
@@ -35,8 +36,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     The delimiter is the comma, the semicolon or the tab, whichever occurs in the most lines. The first row
     may be a header. There are two kinds of headers:
 
-    - The header of a tableau begins with ``c``. The remaining cells begin with ``a``: ``c,a1,a2``.
-    - In other headers, all cells are words, and the first cell is not one of ``names``.
+    - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
+    - In other tables, all cells are words, such as ``time (s)``. The first cell is not in ``names``.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
@@ -50,8 +51,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # A quoted cell may contain a line that begins with #. Such a line is not a comment. Therefore, comments
-    # are removed after the text has been divided into cells.
+    # A line of a quoted cell may begin with #. It is not a comment. Therefore, comments are removed from the
+    # rows and not from the text.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

@@ -59,8 +59,8 @@ def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]
     """Yield the name and the definition of each named number. If the definition of x contains y, then y
     precedes x.
 
-    A definition is a formula or a pair. The pair defines a real root of a polynomial. It consists of the
-    coefficients, from the highest degree to the lowest, and the index of the root among the real roots.
+    A definition is a formula, or a pair that defines a real root of a polynomial. The pair contains the
+    coefficients by descending degree, and the index of the root among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:

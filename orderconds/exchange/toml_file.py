@@ -1,4 +1,4 @@
-"""Tableau files in TOML, the project's own format. The keys are written in a fixed order."""
+"""The project's own tableau files, in TOML. The keys are written in a fixed order."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
-"""Unevaluated coefficients: the expressions of a tableau file, without the names of numbers.
+"""Coefficients as unevaluated expressions, for file formats without named numbers.
 
-A tableau file may define a name for a formula and use the name in coefficients. Some file formats cannot
-store such names. In these formats, each name is replaced by its formula. The resulting expressions are not
-evaluated, because evaluation would lose the digits of rounded decimals. Only operations with 0 and 1 are
-simplified.
+A tableau file may give a name to a formula and use the name in coefficients. Some file formats cannot store
+such names. In these formats, the formula replaces the name. The resulting expressions are not evaluated,
+because evaluation would lose the digits of rounded decimals. Only operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient whose text is too long, because formulas replace the names of numbers."""
+    """The error for a coefficient that is too long after formulas have replaced its named numbers."""
 
 
 class Unevaluated:
@@ -77,7 +76,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """The ring of unevaluated numbers. In their texts, ``~`` marks a rounded decimal.
+    """The ring of unevaluated numbers. In a text, ``~`` follows each rounded decimal.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -92,8 +91,8 @@ class UnevaluatedNumbers:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """One triple (name, minimal polynomial, decimal) for each root with a name. The decimal approximates
-        the root, so it distinguishes the root from the other roots of the polynomial."""
+        """One triple (name, minimal polynomial, decimal) for each named root. The decimal selects
+        one root of the polynomial."""
         return tuple((name, *root) for name, root in self._roots.items())
 
     def rational(self, p: int, q: int = 1) -> Unevaluated:
@@ -101,8 +100,8 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant. If ``unit`` is zero, the constant is exactly ``value``. Otherwise, it is a ball
-        with the centre ``value`` and the radius ``unit``."""
+        """Return a constant with the value ``value`` and the error bound ``unit``. An exact constant has
+        the bound 0."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -112,17 +111,17 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return the name of a root as an expression. Store the polynomial and the decimal in
-        :attr:`named_roots`."""
+        """Store a root in :attr:`named_roots`, and return its name as an expression."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, so that a limit on the size of numbers has no effect in this ring."""
+        """Return 0, because no limit on the size of numbers applies to unevaluated numbers."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
-        """Return True for the constant 0, False for other exact constants, and None for other numbers."""
+        """Return True for the constant 0, and False for an exact constant other than 0. Return None if x is
+        not an exact constant."""
         if isinstance(x.expression, Constant) and not x.expression.unit:
             return x.expression == ZERO
         return None
@@ -132,7 +131,7 @@ class UnevaluatedNumbers:
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
-        """Return the exact text of x instead of a decimal, because x is never evaluated."""
+        """Return the text of x and ignore ``digits``, because x is never evaluated."""
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:
@@ -140,8 +139,8 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient is too long after the names of numbers were replaced by formulas",
-                expected="format json, which keeps the names of numbers",
+                "a coefficient is too long after formulas have replaced its named numbers",
+                expected="format json, which stores named numbers",
             )
         return text
 
@@ -149,8 +148,7 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return the tableau with unevaluated coefficients.
 
-    The coefficients are the expressions in ``file``. If an expression contains the name of a number, the name
-    is replaced by the formula of the number.
+    The coefficients are the expressions in ``file``. In these expressions, formulas replace named numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

@@ -11,10 +11,10 @@ All trees and words are converted to diagrams before they are drawn. The signs o
 An edge is *plain*, *outward* or *inward*. Outward and inward edges occur in trees of partitioned methods with
 the coefficients a_ij and ahat_ij (:mod:`orderconds.trees.directed`), and in action trees:
 
-- *outward*: the edge points from the parent to the child. The child is a velocity, that is, a derivative of
-  the Hamiltonian in p or in the momentum mu. The edge represents a coefficient a_ij.
-- *inward*: the edge points from the child to the parent. The child is a coadjoint action, or a force, that
-  is, a derivative of the Hamiltonian in q. The edge represents a coefficient ahat_ij.
+- *outward*: the edge points from the parent to the child. The child is a velocity. A velocity is a
+  derivative of the Hamiltonian in p or in the momentum mu. The edge represents a coefficient a_ij.
+- *inward*: the edge points from the child to the parent. The child is a coadjoint action or a force. A
+  force is a derivative of the Hamiltonian in q. The edge represents a coefficient ahat_ij.
 """
 
 from __future__ import annotations
@@ -51,9 +51,8 @@ class Vertex:
 
     The attribute ``label`` is the printed text of a letter. It is empty for vertices with other signs.
 
-    In an action tree, the edge from a force to its parent may have a position among the branches of the
-    force. Then ``legs`` is a pair (m, n): of the first n branches, m come before this edge, and n - m come
-    after it. If the edge has no such position, ``legs`` is None.
+    For a force in an action tree, ``legs`` is a pair (m, n). The first n branches are velocities. The edge to
+    the parent comes after the first m velocities. For other vertices, and for n = 0, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -66,7 +65,7 @@ class Vertex:
 
     @property
     def size(self) -> int:
-        """The number of vertices of the tree with this root."""
+        """The number of vertices in the tree whose root is this vertex."""
         return 1 + sum(branch.vertex.size for branch in self.branches)
 
 
@@ -113,8 +112,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 def action(tree: Velocity) -> Diagram:
     """Return the diagram of an action tree.
 
-    The root of an action tree has a word of action trees and a multiset of covectors, which are forces and
-    transports (:mod:`orderconds.series.action_trees`). In the diagram, the branches for the word come first.
+    The root of an action tree has a sequence of velocities, and a multiset of forces and transports
+    (:mod:`orderconds.series.action_trees`). In the diagram, the velocities precede the forces and transports.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

@@ -1,7 +1,7 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
-In the texts, ``f''(x, y)`` is the second derivative of f, applied to the vectors x and y. ``f_zy`` is the
-second partial derivative of f with respect to z and y. ``[A, B]`` is the commutator of A and B.
+In the texts, ``f''(x, y)`` is the second derivative of f, applied to the vectors x and y. For a function
+f(y, z), ``f_zy`` is the mixed second partial derivative. ``[A, B]`` is the commutator of A and B.
 
 The abbreviation HLW denotes the book by Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -29,7 +29,7 @@ def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
     The argument is a rooted tree: the free tree with one of its vertices as the root. The choice of the root
-    affects only the sign of the result. ``f`` denotes the Hamiltonian vector field.
+    affects only the sign of the result. H denotes the Hamiltonian, and f its vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -41,8 +41,8 @@ def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x]`` is the derivative of the vector field f along the vector field x. ``f[x y]`` is the derivative of
-    ``f[y]`` along x, where y is treated as constant: its components in a frame of invariant vector fields are
-    not differentiated.
+    ``f[y]`` along x. In this derivative, the components of y in a frame of invariant vector fields are
+    constants.
 
     The operator of a forest is the product of the operators of its trees. The factors are separated by spaces
     (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
@@ -74,8 +74,8 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
     r"""Return the elementary Hamiltonian of a tree with directed edges, without the sign.
 
     The equations of motion are q' = H_p and p' = -H_q. Each vertex denotes a partial derivative of H. Each
-    edge at the vertex adds one subscript to H: q if the edge begins at the vertex, and p if the edge points
-    to the vertex.
+    edge that begins at the vertex adds the subscript q. Each edge that ends at the vertex adds the
+    subscript p.
 
     >>> directed_hamiltonian(b"\0\3\2")
     'H_pq(H_q, H_p)'
@@ -85,7 +85,7 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary Hamiltonian of a tree of two colours, without the sign (HLW VI.7.2).
-    Neighbouring vertices have different colours.
+    Neighbouring vertices of the tree must have different colours.
 
     The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, and a white vertex denotes V.
 
@@ -96,7 +96,7 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return the text of the differential operator that a word denotes. Each letter denotes a Lie derivative.
+    """Return the differential operator of a word as text. Each letter denotes a Lie derivative.
 
     A Lyndon word is written as a commutator. All other words are written as products. In a product, the
     leftmost letter acts first.
