@@ -18,24 +18,24 @@ from orderconds.formula import Formula, named
 from orderconds.formula.notation import latex_fraction
 
 SHOWN = 80
-"""The largest number of characters of an equation in ``repr``."""
+"""The ``repr`` of a condition shows at most this number of characters of the equation."""
 
 
 @dataclass(frozen=True, repr=False)
 class OrderCondition:
-    """An order condition: a formula in the parameters of a method must be equal to the number ``rhs``.
+    """An order condition: the equation ``formula = rhs`` for the parameters of a method.
 
-    The formula is the coefficient of ``tree`` in the series of the numerical solution. The number is the
-    coefficient of ``tree`` in the series of the exact solution.
+    ``formula`` is the coefficient of ``tree`` in the series of the numerical solution. The number ``rhs`` is
+    the coefficient of ``tree`` in the series of the exact solution.
 
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.
     - ``tree`` is the text of a tree or word.
     - ``source`` is the formula of the left-hand side, or a function that returns the formula.
-    - ``key`` is the tree in the encoding of the family.
-    - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
-      the left-hand sides of other conditions, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` denotes
-      the left-hand side of the condition whose ``tree`` is x.
+    - ``key`` is the tree in the internal encoding of the family.
+    - ``relation`` is the text of a polynomial, or None for an independent condition. The polynomial expresses
+      the left-hand side of a dependent condition in the left-hand sides of other conditions. An example is
+      ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` is the left-hand side of the condition for the tree x.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

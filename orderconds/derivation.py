@@ -17,8 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of order n. Iteration, ``len`` and indices refer to the
-    sequence of all conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. Iteration, ``len`` and indices apply to
+    ``conditions``, the tuple of all conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)
@@ -101,17 +101,18 @@ def derive(
 
     If ``every`` is true, derive the conditions of all trees, including the dependent conditions. If
     ``stages`` is given, the sums over stages are expanded for this number of stages. If ``explicit`` is also
-    true, the expansion assumes an explicit method. ``options`` are options of the family, such as ``cutoff``
+    true, the result is for explicit methods. ``options`` are options of the family, such as ``cutoff``
     for RKMK. Options may also be part of the family's name, as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
     :class:`~orderconds.errors.InputError` in these cases:
 
     - The order is not an integer from 1 to 20.
-    - For one of the orders 1, ..., ``order``, there are too many trees.
+    - There are too many trees of ``order`` or of a lower order.
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.
+    - The conditions cannot be expanded for this number of stages, or the expansion has too many terms.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

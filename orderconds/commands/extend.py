@@ -23,8 +23,9 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     """Add a continuous extension to TABLEAU and write the result. TABLEAU is a file, or the name of a tableau
     of the library.
 
-    The extension gives the solution inside a step from t to t + h. At the time t + theta h, its weights are
-    polynomials b_i(theta). The order of the extension is proved: its order conditions hold for all theta.
+    The extension gives the solution at each time t + theta h inside a step from t to t + h. The weights
+    b_i(theta) of the extension are polynomials. The order of the extension is proved: the order conditions
+    hold for all theta.
 
     \b
     Examples:

@@ -1,8 +1,8 @@
-"""``orderconds list``: list families, tableaux, and objects of other packages.
+"""``orderconds list``: list families, tableaux, and what other packages offer.
 
-Another package may add a list. It registers a function as an entry point in the group
-``orderconds.listings``. The function has no arguments. It returns one record for each object, with the keys
-"name" and "about". The value of "about" is a description in one line.
+Another package may offer a list of its own objects. For this, the package registers a function as an entry
+point in the group ``orderconds.listings``. The function has no arguments. It returns one dictionary for each
+object, with the keys "name" and "about". The value of "about" is a description in one line.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that yields the records of one kind. Raise UnknownName for an unknown kind.
+    """Return the function that yields the records of the given kind. Raise UnknownName for an unknown kind.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'
@@ -96,4 +96,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""Maps each kind that this package lists to the function that yields its records."""
+"""For each kind of this package, the function that yields the records of the kind."""

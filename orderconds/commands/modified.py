@@ -30,22 +30,22 @@ if TYPE_CHECKING:
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field instead. If the method is applied to this field, a step is the exact "
-    "flow of f.",
+    help="Print the modifying field instead of the modified field. A step of the method for the modifying "
+    "field is the exact flow of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
-    """Print the modified equation of a tableau, given as a file or by its name in the library.
+    """Print the modified equation of a tableau. The argument is a file or the name of a library tableau.
 
     \b
     A step of the method is the exact flow, over the time h, of the field
         f~ = sum h^(order - 1) * coefficient * field.
-    Each printed line contains the order, the coefficient and the field of one term.
+    Each printed line contains the order, the tree, the coefficient and the field of one term.
     Each field is an elementary differential of f or a commutator of such differentials.
 
-    For the family rk, each term belongs to a rooted tree. For families of Lie group methods (cg, cf,
-    "rkmk(1)"), each term belongs to a Lyndon word of ordered trees. There f[x y] is the derivative of f along
-    the fields x and y, which are not differentiated themselves. The commutator is [x, y] = x y - y x.
+    For the family rk, the tree is a rooted tree. For families of Lie group methods (cg, cf, "rkmk(1)"), the
+    tree is a Lyndon word of ordered trees. For these families, f[x y] is the derivative of f along the fields
+    x and y. In this derivative, x and y are treated as constant. The commutator is [x, y] = x y - y x.
 
     For a symplectic method, the command also prints the modified Hamiltonian H~. Its terms contain the
     derivatives of the Hamiltonian H and the vector field f of H. An example is H''(f, f).

@@ -11,8 +11,8 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
-    """Return a function that completes a word in the shell. The possible completions are the results of
-    ``names``.
+    """Return a function that completes a word in the shell. The function ``names`` returns all
+    possible completions.
 
     If ``files`` is true and no completion begins with the word, the shell completes the word to a path.
 

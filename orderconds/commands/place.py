@@ -16,8 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, too. Usually, the user has forgotten
-    the name, and the value is in fact the next option.
+    A blank name is refused. A name that begins with ``--`` is refused, too. Usually, such a
+    value is the next option, because the user forgot the name.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -27,7 +27,7 @@ class Place(click.ParamType[str]):
         self.name, self.otherwise = name, otherwise
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the name of the file or folder, or raise an error of click."""
+        """Return ``value``. Raise click.BadParameter if ``value`` is refused as a name."""
         if not value.strip():
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
@@ -45,7 +45,7 @@ FILE = Place("file", "without this option, the output goes to stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file atomically. Devices and pipes are written directly.
+    """Write ``content`` to a file atomically. If ``path`` is a device or a pipe, write to it directly.
 
     Raises :class:`~orderconds.errors.InputError` if writing fails or if no process reads the pipe.
 

@@ -10,8 +10,8 @@ from orderconds.commands.place import FILE, put
 from orderconds.tableau import Tableau, dumps
 
 UNKNOWN = (
-    "no exact method of this order was found near the given coefficients; only fractions or "
-    "numbers p + q sqrt(d) were tried"
+    "no exact method of this order was found near the given coefficients; only fractions and "
+    "numbers p + q sqrt(d) with rational p, q and d were tried"
 )
 
 
@@ -35,16 +35,16 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
     If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
-    decimals of the file, such as "0.8177~". If there are more decimals than equations, some decimals are kept
-    fixed. The new file contains more digits. It lists the fixed decimals as pins. It also contains the old
-    digits.
+    decimals of the file, such as "0.8177~". The new file contains more digits, and
+    also the old digits. If there are more decimals than equations, some decimals do not change. In the new
+    file, the list pins contains the names of these decimals.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
-    p + q sqrt(d), where p, q and d are rational. The exact method has the same order. The suffix of the
-    output file determines its format. The format on stdout is TOML.
+    p + q sqrt(d), where p, q and d are rational. The order of the method does not change. The suffix of
+    the output file determines the format. The format on stdout is TOML.
 
-    Exits with 0 if new coefficients were found, with 1 if no coefficients were found or their proof failed,
-    and with 2 if the file cannot be read.
+    Exits with 0 if new coefficients were found. Exits with 1 if no coefficients were found, or if the proof
+    of the coefficients failed. Exits with 2 if the file cannot be read.
 
     \b
     Examples:
@@ -82,10 +82,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
 
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
-    """Write the tableau with exact coefficients and return 0.
-
-    Return 1 if no exact coefficients are found, or if all coefficients of the tableau are exact already.
-    """
+    """Write the tableau with exact coefficients and return 0. Return 1 if no new coefficients are found."""
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of
 

@@ -49,7 +49,7 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message.
 
     The context manager returns a function that replaces the message by a new one. If the output is not a
-    terminal, messages are shown only with ``--verbose``, as lines on stderr.
+    terminal, ``--verbose`` writes each message as a line to stderr. Without ``--verbose``, nothing is shown.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -71,7 +71,7 @@ def counting(message: str, total: int | None = None) -> Iterator[Callable[[str],
     """Return a context manager that shows the progress of work on several items.
 
     The context manager returns a function. Call this function with the name of each finished item.
-    ``total`` is the number of items. It is None if this number is unknown.
+    ``total`` is the number of items, or None if this number is unknown.
 
     On a terminal, a progress bar is shown. Elsewhere, ``--verbose`` shows a line for each finished item.
 
@@ -118,7 +118,7 @@ def _on_terminal() -> bool:
 class _Lines:
     """Writes the progress of work as lines to stderr, but only with ``--verbose``.
 
-    ``total`` is the number of items. It is None if this number is unknown.
+    ``total`` is the number of items of the work, or None if this number is unknown.
     """
 
     def __init__(self, total: int | None = None) -> None:

@@ -15,7 +15,7 @@ from orderconds.commands import screen
     type=click.IntRange(1, 14),
     required=True,
     help="The largest weight of the printed brackets. The weight of a bracket is the number of its factors. "
-    "In the Magnus series, a factor Xk counts k times.",
+    "In the Magnus series, a factor Xk counts as k factors.",
 )
 @click.option(
     "--basis",

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     "-s",
     type=click.IntRange(*SOLVED_STAGES),
     required=True,
-    help="The number of stages. For compositions and splittings: the number of steps.",
+    help="The number of stages. For the family composition: the number of steps of the base method. For the "
+    "family splitting: the number of flows of V.",
 )
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 @click.option(
     "--low-storage",
     is_flag=True,
-    help="Search only for low-storage schemes, which store two registers K and Y: each stage i computes "
-    "K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.",
+    help="Search only for low-storage schemes with two registers K and Y. For the equation Y' = F(Y) Y, "
+    "stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.",
 )
 @click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
@@ -56,8 +57,8 @@ if TYPE_CHECKING:
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="Require a linear equation between coefficients. In a Butcher tableau, the equation may also "
-    "contain the nodes c_i. The option may be repeated.",
+    help="Require a linear equation between coefficients. If the method has a Butcher tableau, the "
+    "equation may contain the nodes c_i. The option may be repeated.",
 )
 @click.option(
     "--positive",
@@ -84,7 +85,7 @@ if TYPE_CHECKING:
     "--rkn",
     is_flag=True,
     help="For the family splitting: assume that the vector field is a sum T + V with "
-    "[V,[V,[V,T]]] = 0, as for equations q'' = g(q).",
+    "[V,[V,[V,T]]] = 0. Equations q'' = g(q) have this property.",
 )
 @click.option(
     "--minimise",
@@ -122,20 +123,20 @@ if TYPE_CHECKING:
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY, prove its order, and write its tableau.
 
-    Exits with 0 if a method was found and its order was proved, with 1 if no method was found or no method
-    exists, and with 2 if options contradict each other. The same seed gives the same file for any
-    number of processes.
+    Exits with 0 if a method was found and its order was proved. Exits with 1 if no method was found, or if
+    the command proved that no method exists. Exits with 2 if options contradict each other. For a given seed,
+    the result does not depend on the number of processes.
 
-    If a search is interrupted, repeat the command to continue the search. The results of the finished random
-    starts are read from the checkpoint file.
+    If a search is interrupted, repeat the command to continue the search. The new run reads the results of
+    the finished random starts from the file of --checkpoint.
 
     \b
     Examples:
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # Each numerical library uses one thread in each process. The results therefore do not depend on the
-    # number of threads that a computer offers.
+    # With several threads, the results could depend on the number of processor cores. Therefore, each
+    # numerical library uses only one thread in each process.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -170,8 +171,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
     verify_name(options["name"], "--name")
-    # Let p be the requested order. The number of trees of order p is not tested here. A search for symmetric
-    # methods of even order p does not need them: a symmetric method of order p - 1 also has order p.
+    # Let p be the requested order. Only the numbers of trees of the orders up to p - 1 are tested here. If p
+    # is even, a symmetric method of order p - 1 also has order p, and the search needs no trees of order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -209,14 +210,13 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # The pattern allows at most two digits in the exponent, because a number with a long exponent could fill
-    # the memory.
+    # A number with a long exponent could fill the memory. Therefore, the pattern allows at most two digits
+    # in the exponent.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts such as 1/0, which are not numbers. Such a text gives the size 0,
-        # which is refused below.
+        # The pattern also matches texts such as 1/0, which are not numbers. The size 0 is refused below.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")
@@ -273,4 +273,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
     click.echo("if all conditions hold, every product above is zero, and the sum of the products is zero;")
-    click.echo(f"the sum of the products is {proof.consequence}, but {proof.reason}")
+    click.echo(f"as a polynomial, the sum of the products is {proof.consequence}, but {proof.reason}")

@@ -34,13 +34,14 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
     "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
-    """Print a table with one line for each tableau of the library. A line contains the orders of the tableau.
-    The number of exponentials, the norm of the leading error and the certificate belong to the family with
-    the highest order. Exits with 1 if --check is given and the table in FILE is out of date.
+    """Print a table with one line for each tableau of the library. A line contains the claimed orders of
+    the tableau. For the family of the highest order, a line also contains the number of exponentials, the
+    norm of the leading error and the certificate. With --check FILE, the command exits with 1 if the table in
+    FILE is out of date.
 
     If methods are given, print the order and the Butcher tableau of each method. METHOD is the name of a
-    tableau, or FAMILY:NAME. In the second case, the order is computed in this family. A composition of
-    midpoint rules is printed as a Runge-Kutta method.
+    tableau, or FAMILY:NAME. FAMILY is the family in which the order is computed. A composition of midpoint
+    rules is printed as a Runge-Kutta method.
 
     \b
     Examples:
@@ -97,8 +98,8 @@ class Butcher(TypedDict):
 def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
-    ``method`` is the name of a tableau, or FAMILY:NAME. The text FAMILY:NAME selects the family in which the
-    order is computed. By default, it is the family with the highest claimed order.
+    ``method`` is the name of a tableau, or FAMILY:NAME. FAMILY is the family in which the order is
+    computed. Without FAMILY, the order is computed in the family with the highest claimed order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -119,7 +120,7 @@ def butcher(method: str) -> Butcher:
 
 
 def computed() -> Iterator[tuple[str, ...]]:
-    """Yield one row of cells for each tableau of the library.
+    """Yield the row of the table for each tableau of the library.
 
     >>> next(computed())[:2]
     ('alexander2', 'rk')
@@ -132,7 +133,7 @@ def computed() -> Iterator[tuple[str, ...]]:
 
 
 def markdown(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the lines of a Markdown table with the given rows.
+    """Yield the lines of a Markdown table with the headings :data:`COLUMNS` and the given rows.
 
     >>> next(markdown([]))
     '| tableau | format | orders claimed | stages | exponentials | error norm | certificate |'
@@ -173,8 +174,8 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key of a claim. Claims of higher order come first. Among claims of equal order, the
-    claims for families of Lie group methods come first."""
+    """Return a key that sorts claims by decreasing order. Among claims of equal order, the claims for
+    families of Lie group methods come first."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -183,7 +184,7 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return the text of a file, the text before the table, and the text after the table.
+    """Return three texts: the whole file, the part before the table, and the part after the table.
 
     Raise InputError if the comments that mark the begin and the end of the table are missing.
     """

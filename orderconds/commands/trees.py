@@ -1,4 +1,4 @@
-"""``orderconds trees``: enumerate, count, draw and explain trees, forests and Lyndon words of one order."""
+"""``orderconds trees``: enumerate, count, draw and explain the trees, forests or words of a given order."""
 
 from __future__ import annotations
 
@@ -52,15 +52,16 @@ def command(
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    The last column contains the families whose order conditions belong to these trees. A tree has two equal
+    The order conditions of the families in the last column are indexed by these trees. A tree has two equal
     halves if the removal of one edge leaves two equal trees.
 
-    In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom. Let q be
-    the position, and p or mu the momentum. A directed edge leads from a derivative in q to a derivative in p
-    or mu. A diamond (in text drawings: an L) is a coadjoint action on mu.
+    In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom. The
+    letter q denotes the position. The momentum is p, or mu on a Lie group. A directed edge leads from a
+    derivative in q to a derivative in the momentum. A diamond (in text drawings: an L) is a coadjoint action
+    on mu.
 
-    A note such as (>*>) after a vertex shows the order of the edges at this vertex. The sign > is an edge to
-    a child. The sign * is the edge to the parent.
+    A note such as (>*>) after a vertex lists the edges at this vertex from left to right. The sign > is an
+    edge to a child. The sign * is the edge to the parent.
 
     \b
     Examples:
@@ -74,7 +75,7 @@ def command(
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count prints only a number; omit --draw and --explain")
     if not count or svg is not None:
-        members = trees(kind, order)  # This call raises an InputError if there are too many trees.
+        members = trees(kind, order)  # An order with too many trees is refused.
     if svg is not None:
         put(svg, members.svg(explain=explain).encode())
     if as_json:

@@ -1,8 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
-In commands of the class :class:`Variadic`, a repeatable option after the first argument may have several
-values: ``bench dipole --method cf4 rkmk:rk4``. A repeatable option before the first argument has only one
-value. In ``bench --method cf4 dipole``, the word ``dipole`` is the argument and not a second value.
+This module is for options that may be repeated. After the first argument of a :class:`Variadic` command, such
+an option may have several values: ``bench dipole --method cf4 rkmk:rk4``. Before the first argument, the
+option has only one value. In ``bench --method cf4 dipole``, the word ``dipole`` is the argument.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse the arguments with click. Before this, replace ``-m a b`` by ``-m a -m b``, because click
-        expects one value after each name of an option.
+        """Replace ``-m a b`` by ``-m a -m b``, then parse the arguments with click. Click expects one value
+        after each name of an option.
         """
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
