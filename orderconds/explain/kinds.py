@@ -17,12 +17,12 @@ from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
-"""A tree, forest or word. Each kind of trees has its own encoding. For example, a rooted tree is encoded as
-bytes that contain the levels of its vertices."""
+"""A tree, forest or word. The encoding depends on the kind. For example, a rooted tree is encoded as bytes
+that contain the levels of its vertices."""
 
 
 MAX_TREES = 7_000
-"""Conditions of an order are derived only if the number of trees of this order is at most ``MAX_TREES``."""
+"""The highest number of trees of one order for which conditions are derived."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def get(name: str) -> Kind:
     if text(name, "kind", f"one of {', '.join(KINDS)}") not in KINDS:
         close = difflib.get_close_matches(name, KINDS, n=1)
         raise UnknownName(
-            f"there is no kind of trees {name!r}",
+            f"no kind of trees has the name {name!r}",
             expected=f"one of {', '.join(KINDS)}",
             hint=f"for example, run: orderconds trees {close[0] if close else 'rooted'} --order 4",
         )
@@ -117,9 +117,9 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of the trees or words to which the conditions of a family belong.
+    r"""Return the kind of the trees, forests or words that index the conditions of a family.
 
-    For some families, such as ``rkn``, no kind is known. Then the function returns None.
+    Return None if there is no such kind, for example for the family ``rkn``.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -149,7 +149,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of the tree to which a condition belongs.
+    """Return the elementary differential or Hamiltonian of the tree of a condition.
 
     If :func:`of_family` returns None for the family of the condition, the result is ``condition.tree``.
 

@@ -12,11 +12,11 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``last`` joins the last branch of a vertex to the vertex. ``fork`` joins all other branches of the vertex.
-    ``rail`` is a part of the vertical line between two branches of a vertex.
+    The character ``last`` is the corner at the last branch of a vertex. The character ``fork`` is the
+    junction at each other branch. The character ``rail`` is a part of the vertical line between two branches.
 
-    A note such as ``(▸*▸)`` lists edges at a vertex from left to right: ``▸`` is the edge to a branch, and
-    ``*`` is the edge to the parent.
+    A text such as ``(▸*▸)`` after a vertex lists edges of the vertex from left to right: ``▸`` is the edge to
+    a branch, and ``*`` is the edge to the parent.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

@@ -41,8 +41,8 @@ class ActionFamily(Family):
     of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
     The function :meth:`conditions` returns independent conditions. To find them, it evaluates all conditions
-    for random integration methods. The function :meth:`decisive_conditions` needs no evaluation. It returns
-    more conditions, some of which may be dependent.
+    for random integration methods. The function :meth:`decisive_conditions` evaluates no methods and
+    is faster. However, some of its conditions may be dependent on others.
     """
 
     needs_nonzero_weights = True
@@ -85,9 +85,9 @@ class ActionFamily(Family):
         """Return one polynomial for each dependent condition of the given order.
 
         The keys of the result are the trees of the dependent conditions. The polynomial is equal to the
-        left-hand side of the dependent condition. Its variables are the left-hand sides of independent
-        conditions. A pair (q, trees) denotes a term of the polynomial: q times the product of the variables
-        that belong to the trees.
+        left-hand side of the dependent condition. The variables of the polynomial are the left-hand sides of
+        independent conditions. A polynomial is a tuple of terms (q, trees). The value of a term is the number
+        q times the product of the left-hand sides of the conditions of ``trees``.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -104,9 +104,10 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the equations in :meth:`relations` hold for the exact flow and a random method.
+        """Return True if the :meth:`relations` of the given order hold over the rational numbers Q.
 
-        The coefficients of the random method are rational numbers, and the arithmetic is exact.
+        The relations are computed modulo primes. This function tests the relations over Q, for the exact flow
+        and for one method with random rational coefficients.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -116,8 +117,8 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order.
 
-        The conditions of two trees are equivalent if the trees differ only in the choice of the root. From
-        each class of such trees, only the simplest tree is used.
+        If two trees differ only in the choice of the root, their conditions are equivalent. Such trees form a
+        class. The result contains only the condition of the simplest tree of each class.
         """
         return tuple(map(self.condition, representatives(order)))
 
@@ -153,9 +154,9 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b) without zero weights, else None.
+        """Return this family if ``tableau`` has the form (A, b) without zero weights. Otherwise return None.
 
-        The file of such a tableau should state the order of the method in this family.
+        A file with such a tableau should state the order of the method in this family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 

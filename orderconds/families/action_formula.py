@@ -3,11 +3,12 @@
 The conditions contain coefficients of words in a product of exponentials. Let u be a word of k letters. Each
 letter comes from one of the exponentials, and the n-th letter comes from the exponential with index j_n. The
 coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. Each term is a product of k factors:
-the coefficients of the letters in the exponents. The term is divided by r! for each group of r letters
-from the same exponential.
+the coefficients of the letters in the exponents. If r letters come from the same exponential, the term is
+divided by r!.
 
-A run is a group of adjacent letters from the same exponential. For each division of u into runs, there is one
-sum whose indices satisfy strict inequalities. The coefficient of u is the sum over all divisions.
+A run is a group of adjacent letters from the same exponential. Each division of u into runs gives one sum,
+with one index for each run. The indices satisfy strict inequalities. The coefficient of u is the sum over all
+divisions.
 
 The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
 exponents. The coefficient of u is then S^k/k!. Printed conditions contain no denominator k!, because both
@@ -42,16 +43,16 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word whose letters are action trees. At most one letter is a string: the index of a stage. The string
-represents the letter x in :meth:`ActionFormula.through`."""
+"""A word of action trees. One of the letters can be a string instead of a tree. This string is the index of a
+stage, and it represents the letter x in :meth:`ActionFormula.through`."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The series of exp gives a denominator k! for each word of k equal letters. The factor removes these
-    denominators. It is a product over the tree and all its subtrees of type ``Velocity``: a subtree whose
-    word consists of k equal letters contributes k!.
+    The coefficient of a word of k equal letters has the denominator k!. The multiplication removes these
+    denominators. The factor is a product of factorials k!, one for the tree and for each subtree of type
+    ``Velocity`` whose word consists of k equal letters.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -72,8 +73,8 @@ class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
     A subclass defines how the stages and the update depend on the velocities of the stages. The argument
-    ``row`` of a function is the index of a stage, or None for the update. The coefficient of a tree includes
-    the factor :func:`multiplier` of this tree.
+    ``row`` of a function is the index of a stage, or None for the update. In all formulas, the coefficient of
+    a tree is multiplied by the :func:`multiplier` of this tree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -83,18 +84,17 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the group element of stage ``row``, multiplied by a factor.
 
-        If the word consists of k equal letters, the result is k! times this coefficient.
+        The factor is k! for a word of k equal letters, and 1 for all other words.
         """
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
-        the sum of this velocity and x.
-        If ``row`` is None, the group element is that of the update.
+        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
+        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -140,16 +140,16 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def place(self) -> str:
-        """Return a new index that runs over exponentials."""
+        """Return an unused name for an index of exponentials."""
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of ``tree`` in the exponent with index ``place`` of stage ``row``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
+        """Return the coefficient of a word in the group element of stage ``row``, multiplied by a factor.
 
-        If the word consists of k equal letters, the result is k! times this coefficient.
+        The factor is k! for a word of k equal letters, and 1 for all other words.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -163,10 +163,10 @@ class ExponentialsFormula(ActionFormula):
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in the product of exponentials whose indices J satisfy ``above`` < J <
-        ``below``.
+        """Return the coefficient of a word in a product of exponentials.
 
-        If ``above`` is None, J has no lower bound. If ``below`` is None, J has no upper bound.
+        The product contains the exponentials with an index between ``above`` and ``below``, both excluded. If
+        ``above`` or ``below`` is None, this bound is omitted.
         """
         if not word:
             return one()
@@ -177,10 +177,11 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return a pair (factor, formula). The product of both is one term of the result of :meth:`between`.
+        """Return a pair (factor, formula). Their product is one term of the result of :meth:`between`.
 
-        The word is divided into runs, and all letters of a run come from the same exponential. The numbers of
-        letters in the runs are ``lengths``. The factor is 1 divided by the factorials of these numbers.
+        The word is divided into runs, and all letters of a run come from the same exponential. ``lengths``
+        contains the number of letters in each run. The factor is the product of 1/r! over the runs, where r
+        is the number of letters.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -208,8 +209,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Sums for Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij, and the update
-    has one exponential for each weight b_j. The index of an exponential is j.
+    """Sums for Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij. The update has
+    one exponential for each weight b_j. In both cases, j is the index of the exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -218,23 +219,22 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return a new index that runs over stages."""
+        """Return an unused name for an index of stages."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of the tree t = ``tree`` in the exponent with index j = ``place``.
 
-        The result is ``a_ij tau_t(j)`` in stage i = ``row``, and ``b_j tau_t(j)`` in the update. Here
-        ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
+        If ``row`` is a stage i, the result is ``a_ij tau_t(j)``. If ``row`` is None, the result is
+        ``b_j tau_t(j)``. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
         """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
-        the sum of this velocity and x. This velocity occurs in one exponential only. If ``row`` is None, the
-        group element is that of the update.
+        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
+        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -242,8 +242,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 class CommutatorFreeFormula(ExponentialsFormula):
     """Sums for commutator-free methods. The stages and the update are products of exponentials.
 
-    The exponent with index J is ``sum_j alpha_iJj xi_j`` in stage i. In the update, it is ``sum_j beta_Jj
-    xi_j``. Here xi_j is the velocity of stage j.
+    In stage i, the exponent with index J is ``sum_j alpha_iJj xi_j``. In the update, the exponent with index
+    J is ``sum_j beta_Jj xi_j``. Here xi_j is the velocity of stage j. The numbers alpha_iJj and beta_Jj are
+    the coefficients of the method.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -252,14 +253,15 @@ class CommutatorFreeFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return a new index that runs over exponentials."""
+        """Return an unused name for an index of exponentials."""
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of the tree t = ``tree`` in the exponent with index J = ``place``.
 
-        The result is ``sum_j alpha_iJj tau_t(j)`` in stage i = ``row``, and ``sum_j beta_Jj tau_t(j)`` in the
-        update. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
+        If ``row`` is a stage i, the result is ``sum_j alpha_iJj tau_t(j)``. If ``row`` is None, the result is
+        ``sum_j beta_Jj tau_t(j)``. Here ``tau_t(j)`` is the result of :meth:`tau` for the tree t and stage j.
+        The class docstring defines alpha and beta.
         """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
@@ -267,9 +269,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
-        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
-        the sum of this velocity and x.
-        If ``row`` is None, the group element is that of the update.
+        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
+        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -300,20 +301,21 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), where i is ``row``. The class docstring defines X_i.
+        """Return the coefficient of a word in exp(X_i), multiplied by a factor. The index i is ``row``.
 
-        If the word consists of k equal letters, the result is k! times this coefficient.
+        The factor is k! for a word of k equal letters, and 1 for all other words. The class docstring defines
+        X_i.
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i) with i = ``row``, or in exp(Y) if ``row`` is
-        None. The class docstring defines X_i and Y.
+        """Return the coefficient of the word u x v in exp(X_i), where i is ``row``. The class docstring
+        defines X_i and Y. If ``row`` is None, Y takes the place of X_i.
 
-        Here u is ``before``, v is ``after``, and x is a new letter. The velocity of ``stage`` is replaced by
-        the sum of this velocity and x.
+        The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
+        velocity of ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -350,11 +352,11 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in X_i with i = ``row``, or in Y if ``row`` is None.
+        """Return the coefficient of ``word`` in X_i, where i is ``row``.
 
-        The class docstring defines X_i and Y as linear combinations of ``v_j = dexpinv_{X_j} xi_j``. In each
-        term of v_j, one letter of the word comes from xi_j, and all other letters come from X_j. The result
-        is a sum over the choices of the letter that comes from xi_j.
+        If ``row`` is None, Y takes the place of X_i. X_i and Y are linear combinations of the elements v_j
+        (see the class docstring). In each term of v_j, one letter comes from xi_j, and all other letters come
+        from X_j. The result is a sum over the possible positions of the letter from xi_j.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -378,8 +380,8 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # The coefficient of a non-empty word in X^0 = 1 is zero. In a power X^m with m > 0, the
-            # coefficient of the empty word is zero.
+            # Let X be the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0,
+            # the power X^m does not contain the empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -389,8 +391,8 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Sums for Munthe-Kaas methods that truncate dexp instead of dexpinv. Stage i has the exponential
-    exp(X_i), and the update has exp(Y).
+    """Sums for Munthe-Kaas methods in which the series of dexp is truncated, not the series of dexpinv. Stage
+    i has the exponential exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
     equation ``dexp_{X_j} v_j = xi_j``, and xi_j is the velocity of stage j. The operator dexp is the

@@ -1,8 +1,8 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-A step may leave the manifold. The exact solution stays on the manifold. Therefore the distance from the
-manifold after one step is at most the local error. The order is the classical order of the tableau. This
-family is intended for comparisons with methods that stay on the manifold.
+A step may leave the manifold. The exact solution stays on the manifold. Therefore the distance between the
+numerical solution and the manifold after one step is at most the local error. The order is the classical
+order of the tableau. This family is intended for comparisons with methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class AmbientFamily(RungeKuttaFamily):
     name = "ambient"
     description = "Runge-Kutta methods in coordinates of the ambient space; a step may leave the manifold."
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"rk": "the ambient space of a vector space is the space itself"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
     bounds_others = False
     default_series = False
     low_storage = ()

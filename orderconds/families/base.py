@@ -41,8 +41,8 @@ class Family(ABC):
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
     :meth:`evaluate`. All other attributes and methods have defaults. The function
-    :func:`orderconds.families.register` makes the family available to every command. Options of a family,
-    such as ``cutoff``, are integer parameters of the constructor.
+    :func:`orderconds.families.register` makes the family available to every command. An option of a
+    family, such as ``cutoff``, is an integer parameter of the constructor of its class.
     """
 
     name: ClassVar[str] = ""
@@ -60,19 +60,19 @@ class Family(ABC):
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
+    """True if formulas of the family divide by the weights b_i. Such a family requires non-zero weights."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` tests if the tableau file states no order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if the order conditions can be evaluated over Q for some methods with irrational coefficients. The
-    module :mod:`orderconds.ring.nodal` describes such methods."""
+    """True if rational arithmetic suffices to evaluate the order conditions of some methods with irrational
+    coefficients. The module :mod:`orderconds.ring.nodal` describes these methods."""
     trees: ClassVar[str | None] = None
-    """The kind of trees to which the conditions belong (:mod:`orderconds.explain.kinds`). None if the
-    conditions belong to words."""
+    """The name of the kind of trees, forests or words that index the conditions. The kinds are defined in
+    :mod:`orderconds.explain.kinds`. None if there is no such kind."""
     illustrates: ClassVar[tuple[str, ...]] = ()
-    """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
+    """The kinds of trees for which ``orderconds trees --explain`` prints the conditions of this family."""
 
     symbols: ClassVar[Mapping[str, str]] = {
         "a": r"$a_{ij}$ are the coefficients of the stages",
@@ -94,9 +94,9 @@ class Family(ABC):
     low_order: ClassVar[str | None] = None
     """The name of a family with the same conditions of orders 1 and 2, or None."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
+    """True if ``check`` derives bounds of orders in other families from the order in this family."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families in which every low-storage scheme has the same order as in this family."""
+    """The names of families in which each low-storage scheme has the order that it has in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -114,8 +114,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order of methods for which the compiler can minimise the number of brackets. The methods
-    have no ``cutoff``.
+    """The highest order for which the compiler can minimise the number of brackets of a method. The compiler
+    does this only for methods without ``cutoff``.
     """
     cutoff: int | None = None
     """The power of ad after which the series of dexpinv or dexp is truncated. None means no truncation."""
@@ -125,15 +125,15 @@ class Family(ABC):
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format for which ``orderconds solve`` computes coefficients, or None if ``solve`` refuses
-    the family.
+    """The tableau format for which ``orderconds solve`` computes coefficients. None if the command does not
+    accept the family.
     """
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux. Their coefficients satisfy b_i a_ij + b_j a_ji =
     b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three imply c_i = chat_i = m_i whenever all weights are positive. The
-    module :mod:`orderconds.solve.abscissae` defines the abscissae c_i, chat_i and m_i.
+    """True if each method of order three with positive weights has equal abscissae: c_i = chat_i = m_i. The
+    module :mod:`orderconds.solve.abscissae` defines these abscissae.
     """
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
@@ -144,10 +144,10 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply :meth:`all_conditions` of the given order.
+        """Return order conditions of the given order.
 
-        The implication assumes that all conditions of lower order hold. In most families, the returned
-        conditions are independent.
+        If all conditions of lower order hold, the returned conditions imply all conditions of the given
+        order. In most families, the returned conditions are independent.
         """
 
     @abstractmethod
@@ -156,15 +156,14 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand sides of ``conditions`` for a method with coefficients in ``ring``.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` if the formulas of the family divide by a weight that is
-        zero.
+        Raises :class:`~orderconds.errors.ZeroWeight` for a division by a weight b_i = 0.
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the :meth:`conditions` of the given order without dependent conditions.
 
         A condition is dependent if it follows from other conditions of the same order or of lower orders. By
-        default, no condition is dependent.
+        default, return all :meth:`conditions`.
         """
         return self.conditions(order)
 
@@ -180,9 +179,9 @@ class Family(ABC):
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if :meth:`conditions` are proved to imply all conditions of the given order.
+        """Return True if :meth:`conditions` omits only dependent conditions of the given order.
 
-        By default the result is True, because a theorem about trees or words proves the implication.
+        By default, return True, because a theorem about trees or words determines the omitted conditions.
         """
         return True
 
@@ -196,8 +195,8 @@ class Family(ABC):
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield a pair (key, function) for each of the :meth:`decisive_conditions`. Each function
-        constructs the condition with the given key."""
+        """Yield a pair (key, function) for each condition in :meth:`decisive_conditions`. The key
+        identifies the condition, and the function constructs it."""
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
@@ -238,8 +237,8 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return one residual for each of the :meth:`conditions` of the given order. A subclass may use other
-        conditions of this order.
+        """Return the residuals of the :meth:`conditions` of the given order. Some subclasses return the
+        residuals of other conditions of this order.
 
         For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
         """
@@ -252,7 +251,7 @@ class Family(ABC):
         return tableau.read_as(self.formats)
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method does not belong to the family."""
+        """Raise :class:`~orderconds.errors.InputError` if the family does not accept the method."""
         return
 
     def converted(self, convert: Callable[[Element], Element]) -> Family:
@@ -260,10 +259,10 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if the tableau file states no order.
+        """Return the family in which the order of ``method`` is tested if the tableau file states no order.
 
-        The object ``self`` is the family with the same name as the format of the tableau. By default, return
-        ``self``.
+        ``self`` is the family with the same name as the tableau format. By default, return ``self``. A family
+        of splittings returns the variant with the number of fields of ``method``.
         """
         return self
 
@@ -315,7 +314,7 @@ class Family(ABC):
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
         If ``explicit`` is true, the method is explicit. Raises :class:`~orderconds.errors.InputError` if
-        the number of stages does not determine the coefficients of the family.
+        methods of the family with ``stages`` stages can have different sets of coefficients.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -347,14 +346,14 @@ class Family(ABC):
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method`` is proved to be symmetric in this family."""
+        """Return True if ``method`` is proved to be symmetric. By default, return False."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a substitute for this family, or None. The substitute is a family with fewer conditions.
+        """Return a family with fewer conditions, which imply the conditions of this family for ``method``.
 
-        For the given method, the conditions of the substitute imply the conditions of this family. The result
-        also contains the method in a format that the substitute accepts.
+        The result also contains the method in a format that the returned family accepts. Return None if no
+        such family is known.
         """
         return None
 
@@ -368,13 +367,13 @@ class Family(ABC):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return a description of the conditions that the truncation of dexpinv does not change.
 
-        By default, return None. This means that no such description is known.
+        Return None if no description is known.
         """
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions that apply to a method. A reduction is a theorem that makes some conditions
-        superfluous.
+        """Return the reductions that apply to a method. A reduction is a theorem by which some conditions
+        need not be evaluated.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -400,17 +399,16 @@ class Family(ABC):
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return lower bounds of the orders of symmetric methods, as pairs (family, bound).
+        """Return pairs (label, bound) for symmetric methods that have the order ``order`` in this family.
 
-        A symmetric method of order ``order`` in this family has at least the order ``bound`` in ``family``.
+        In the family with this label, the order of each such method is at least ``bound``.
         """
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions the command ``orderconds solve`` solves.
+        """Return the label of the family from which ``orderconds solve`` takes the order conditions.
 
-        By default, this is the label of the family itself. ``nystroem`` is true if the option ``--rkn`` is
-        set.
+        By default, return the label of this family. The option ``--rkn`` sets ``nystroem`` to true.
         """
         return self.label()
 
@@ -461,7 +459,8 @@ def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
 
 
 def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
-    """Raise :class:`~orderconds.errors.ZeroWeight` if one of the weights is or may be zero.
+    """Raise :class:`~orderconds.errors.ZeroWeight` if a weight is zero or cannot be
+    distinguished from zero.
 
     >>> from orderconds.ring import QQ
     >>> require_nonzero_weights("vcg", QQ, [QQ.one])
