@@ -2,14 +2,15 @@
 
 The step is Y_1 = cay(Omega) Y_0, where cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i = h
-A(c_i h), and c_i are the nodes. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
-defines the quadratic group.
+Omega is a sum of brackets and of sums such as A_i A_j A_k + A_k A_j A_i. Here A_i = h A(c_i h), and c_i are
+the nodes. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P defines the quadratic
+group.
 
-A word denotes a product. If a word of length n is reversed, its coefficient in Omega is multiplied by
-(-1)^(n+1). The conditions of a word and of its reverse are therefore equivalent, and one of them is kept. A
-palindrome of even length has the coefficient zero and no condition (Iserles, Found. Comput. Math. 1 (2001)
-129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
+The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... Consider a word with n letters and the
+reversed word. Their coefficients in Omega differ by the factor (-1)^(n+1). Therefore their conditions are
+equivalent, and one of the two conditions is kept. If a word is equal to the reversed word and n is even, its
+coefficient is zero. This word has no condition (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and
+Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -34,8 +35,10 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods: a step is a Cayley transform cay(Omega) or a product of Cayley transforms. In printed
-    conditions, omega_{ij...} is the coefficient of the product ... A_j A_i in Omega.
+    """Cayley methods: a step is a Cayley transform cay(Omega) or a product of Cayley transforms.
+
+    In printed conditions, omega_ij is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient
+    of A_k A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -55,8 +58,8 @@ class CayleyFamily(MagnusFamily):
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the words of weight ``order`` whose conditions are independent.
 
-        If a word differs from its reverse, the result contains one of the two words. If a word is a
-        palindrome, the result contains it only for odd length.
+        If a word differs from the reversed word, the result contains the smaller one of the two words. A word
+        that is equal to the reversed word is in the result if its length is odd.
         """
         return tuple(
             word
@@ -69,9 +72,9 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word in Omega as a multiple of the coefficient of an independent word.
+        """Return the coefficient of a word in Omega as a polynomial in the coefficients of independent words.
 
-        The method :meth:`independent` returns the independent words.
+        The polynomial is zero or has one linear term. See :meth:`independent` for the independent words.
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

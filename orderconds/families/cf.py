@@ -2,9 +2,9 @@
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
-first. Stage i has the same form. Its exponential with index J has the coefficients alpha_iJj instead of
-beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage may start from the value of an earlier
-stage instead of y0.
+first. Stage i has the same form, with the coefficients alpha_iJj instead of beta_Jj (Celledoni, Marthinsen
+and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage, its product also
+contains the exponentials of the earlier stage.
 
 Printed conditions also contain sums over all exponentials: b_j = sum_J beta_Jj and a_ij = sum_J alpha_iJj.
 The abscissae are c_i = sum_j a_ij.
@@ -50,8 +50,8 @@ EXPONENTIAL_SYMBOLS = {
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau is accepted, too. It is read as a Crouch-Grossman
-    method, that is, each exponent is a multiple of one stage value k_j.
+    """Commutator-free methods. A Runge-Kutta tableau defines a Crouch-Grossman method, in which each exponent
+    is a multiple of one stage value k_j.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -72,7 +72,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
-        """Return the Lie-Butcher series of one step. A tableau (A, b) is read as a Crouch-Grossman method."""
+        """Return the Lie-Butcher series of one step. A tableau (A, b) defines a Crouch-Grossman method."""
         if isinstance(method, RungeKutta):
             return crouch_grossman_series(method, ring)
         *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
@@ -84,16 +84,17 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method, else None.
+        """Return this family for a commutator-free method. Otherwise return None.
 
         The file of a commutator-free method should state the order in this family. The file of a tableau
-        (A, b) should state the order in the family ``cg`` instead.
+        (A, b) should state the order in the family ``cg``.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if a commutator-free method satisfies the sufficient condition for symmetry in
-        :mod:`orderconds.tableau.palindromes`.
+        """Return True if the exponentials of a commutator-free method form a palindrome.
+
+        Then the method is symmetric. The palindrome is defined in :mod:`orderconds.tableau.palindromes`.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
@@ -105,7 +106,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 def exponentials(method: Method) -> list[Exponentials]:
     """Return a list with the exponents of all stages and of the update.
 
-    The list has one item for each stage, and one item for the update at its end. An item contains the
+    The list has one item for each stage. The last item of the list is for the update. An item contains the
     exponents of all exponentials that are applied to y0, in the order of application. An exponent is a tuple
     with one coefficient for each stage value k_j.
 

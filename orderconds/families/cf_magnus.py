@@ -3,10 +3,10 @@
 The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i). Here A_i = h A(c_i h), and
 c_i are the nodes.
 
-Each condition belongs to a word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + ..., and it has
-the weight k. The condition states that the word has the same coefficient in the step and in the exact flow.
-In the exact flow, this coefficient is an iterated integral (Blanes and Moan, Appl. Numer. Math. 56 (2006)
-1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+There is one condition for each word. The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 +
+.... The weight of this letter is k. The condition states that the word has the same coefficient in the step
+and in the exact flow. In the exact flow, the coefficient is an iterated integral (Blanes and Moan, Appl.
+Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations

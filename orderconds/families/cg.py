@@ -56,16 +56,14 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None.
+        """Return this family for a tableau (A, b). Otherwise return None.
 
         The file of a tableau (A, b) should state the order of its Crouch-Grossman method.
         """
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the sufficient condition for symmetry in :func:`symmetric_crouch_grossman` is
-        satisfied.
-        """
+        """Return True if :func:`symmetric_crouch_grossman` proves that the method is symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -92,10 +90,10 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Return True if a tableau satisfies a sufficient condition for symmetry.
+    """Return True if the exponentials of the Crouch-Grossman method of a tableau form a palindrome.
 
-    The condition is stated in :mod:`orderconds.tableau.palindromes`. If a tableau satisfies it, the
-    Crouch-Grossman method and the variational Crouch-Grossman method of the tableau are symmetric.
+    Then the Crouch-Grossman method and the variational Crouch-Grossman method of the tableau are symmetric.
+    The palindrome is defined in :mod:`orderconds.tableau.palindromes`.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))

@@ -1,12 +1,13 @@
-"""Compositions of a method Phi and its adjoint, or of symmetric methods. Each condition belongs to a word.
+"""Compositions of a method Phi and its adjoint Phi*, or of symmetric methods.
 
-The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. The
-letter k of a word denotes X_k and has the weight k. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k
-X_k over k. The logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
+The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. If Phi_h
+is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum of alpha^k h^k X_k over k. The
+logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
-The condition of a word states that the word has the same coefficient in one step and in the exact flow. If
-all n letters of a word are 1, its coefficient in the exact flow is 1/n!. Otherwise this coefficient is zero
-(HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+There is one condition for each word. The letter k of a word denotes X_k and has the weight k. The condition
+of a word states that the word has the same coefficient in one step and in the exact flow. If all n letters of
+a word are 1, its coefficient in the exact flow is 1/n!. Otherwise this coefficient is zero (HLW III.3.1;
+Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -41,8 +42,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}.
 
-    Here Phi_h is a method with step size h, and Phi*_h is its adjoint. Let Phi_h = exp(h X_1 + h^2 X_2 +
-    ...). If Phi_h is symmetric, then X_2, X_4, ... are zero.
+    Here Phi_h is a method with step size h, and Phi*_h is its adjoint.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -64,7 +64,9 @@ class CompositionFamily(WordFamily):
             "the method is a composition of midpoint rules (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
         ),
         "symmetric_composition": "every symmetric composition is a composition",
-        "splitting": "a composition with the adjoint gives a splitting of the same order (McLachlan 1995)",
+        "splitting": (
+            "a composition of a method and its adjoint gives a splitting of the same order (McLachlan 1995)"
+        ),
     }
     bounds_others = True
     unknowns = "composition"
@@ -115,7 +117,7 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a composition, else None.
+        """Return this family for a composition. Otherwise return None.
 
         The file of a composition should state the order of the method in this family.
         """
@@ -152,18 +154,19 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function that maps a word and the summation index of a stage to a pair (formula, n).
+"""A function that maps a word and the summation index of a block to a pair (formula, n).
 
-The coefficient of the word in the series of the stage is the formula divided by the integer n.
+A block is a stage or an exponential. The coefficient of the word in the series of the block is the formula
+divided by the integer n.
 """
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The step is a composition of stages or of exponentials. The function ``block`` computes coefficients in
-    the series of one stage or exponential (:data:`BlockFormula`). The argument ``kind`` is the name of the
-    summation indices, such as "i" for stages and "J" for exponentials.
+    The step is a composition of blocks. A block is a stage or an exponential. The function ``block`` returns
+    the coefficient of a word in the series of one block (:data:`BlockFormula`). The argument ``kind`` is the
+    name of the summation indices, such as "i" for stages and "J" for exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

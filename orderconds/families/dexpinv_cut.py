@@ -1,17 +1,18 @@
-"""Families with the option ``cutoff``. If ``cutoff`` is r, the series of dexpinv is truncated after the power
-r of ad.
+"""Families with the option ``cutoff``: the series of dexpinv in powers of ad is truncated.
+
+The value r of ``cutoff`` is the exponent of the last power that is kept. For even r >= 2, the next Bernoulli
+number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1 if r >= 2 is even, and R = r
+otherwise.
 
 Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method with the
 same tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method with the same
 tableau (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
-If r >= 2 is even, let R = r + 1. Otherwise let R = r. For even r >= 2 the Bernoulli number B_(r+1) is zero,
-so truncation after the power r and after the power R gives the same method. The truncation changes one step
-by O(h^(R+3)). Therefore the order with truncation is min(p, R + 2) (compare Bogfjellmo and Marthinsen,
-Theorem 3.5.3).
+The truncation changes one step by a term with h^(R+3) and by higher powers of h. The order with truncation is
+min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3).
 
-The coefficient of a tree is computed from words. The letters of these words are smaller trees. The truncation
-changes only the contributions of words with more than R + 1 letters.
+The coefficient of a tree is computed from words, whose letters are smaller trees. The truncation changes only
+the contributions of words with more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -30,11 +31,12 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a tableau file should state orders."""
+"""A tableau file should state the order for each of these values of ``cutoff``."""
 
 
 class DexpinvCut(Family):
-    """A family with the option ``cutoff``. The series of dexpinv is truncated after this power of ad.
+    """A family with the option ``cutoff``. If ``cutoff`` is r, the series of dexpinv ends with the power r of
+    ad. If ``cutoff`` is None, the series is not truncated.
 
     Raises :class:`~orderconds.errors.InputError` for a negative ``cutoff``.
     """
@@ -48,8 +50,8 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the coefficient of a tree or forest. The
-        letters of the word are trees."""
+        """Return the maximal length of the words from which the coefficient of a tree or forest is computed.
+        The letters of these words are trees."""
 
     def label(self) -> str:
         """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
@@ -73,7 +75,8 @@ class DexpinvCut(Family):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of a method, computed from its orders in other families.
 
-        The theorem on the truncation of dexpinv in the module docstring is one source of the bound.
+        The result is the largest of several bounds. One bound is min(p, R + 2) from the module docstring, or
+        p if ``cutoff`` is None.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -85,7 +88,7 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return an object that describes which conditions the truncation of dexpinv leaves unchanged.
+        """Return a description of the conditions that the truncation of dexpinv does not change.
 
         Return None if ``method`` is not a Runge-Kutta tableau, or if :attr:`abelian` is None.
         """
@@ -95,8 +98,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return an integer n. The truncation of dexpinv does not change the contributions of words with at most
-    n letters, and n is the largest integer with this property.
+    """Return R + 1, where the module docstring defines R. The truncation of dexpinv changes only the
+    contributions of words with more than R + 1 letters.
 
     If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large number.
 

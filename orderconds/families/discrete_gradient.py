@@ -1,10 +1,9 @@
-"""Discrete gradient methods on groups. A quadrature rule approximates the mean of the differential of the
-Hamiltonian H over one step.
+"""Discrete gradient methods on Lie groups. The methods use the differential of the Hamiltonian H.
 
-The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
-Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section
-2.6). The condition of order one is sum_i b_i = 1. The condition of order two is sum_i b_i c_i = 1/2. The
-order is never higher than two.
+A quadrature rule approximates the mean of this differential over one step. The tableau contains the nodes and
+weights of the rule. The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie
+groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). The condition of order one is sum_i b_i
+= 1. The condition of order two is sum_i b_i c_i = 1/2. The order is never higher than two.
 """
 
 from __future__ import annotations
@@ -60,6 +59,5 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a step has no field evaluations. It evaluates the energy and the differential
-        of the energy instead."""
+        """Return None. A step evaluates the energy and its differential instead of a vector field."""
         return None

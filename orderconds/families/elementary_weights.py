@@ -1,8 +1,8 @@
 """Elementary weights of rooted trees as index sums, and the order conditions of trees.
 
-In the order condition of a tree, the elementary weight is equal to 1/gamma, where gamma is the density of the
-tree. A tree can have edges of two kinds, 0 and 1. An edge of kind 0 gives a factor a_ij, and an edge of kind
-1 gives a factor ahat_ij.
+The order condition of a tree states that the elementary weight is equal to 1/gamma, where gamma is the
+density of the tree. A tree can have edges of two kinds, 0 and 1. An edge of kind 0 gives a factor a_ij, and
+an edge of kind 1 gives a factor ahat_ij.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ kept_branches = lru_cache(maxsize=1 << 16)(branches)
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return the matrix ahat with the entries ahat_ij = b_j - b_j a_ji/b_i.
+    """Return the matrix ahat with the entries ahat_ij = b_j (1 - a_ji / b_i). No b_i may be zero.
 
     The tableaux (A, b) and (ahat, b) define a symplectic partitioned Runge-Kutta method (Hairer, Lubich and
     Wanner, Geometric Numerical Integration, VI.4).
@@ -45,7 +45,7 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    ``weights`` is the name of the weights in the formula, ``b`` or ``bhat``.
+    The argument ``weights`` is the name of the weights in the formula: ``b`` or ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()
@@ -59,8 +59,9 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    The tree is a sequence whose length is the number of vertices. The function ``below`` maps a tree to the
-    branches at the root. Each branch is a pair: the kind of its edge to the root, and its subtree.
+    A tree with n vertices is a bytes object of length n. The function ``below`` returns the branches at the
+    root of a tree. A branch is a pair (kind, subtree), where kind is the kind of the edge from the root to
+    the subtree.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -78,9 +79,10 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return one order condition for each tree. See :func:`weight_condition` for its form.
+    """Return the order conditions of the trees. Each condition is a :func:`weight_condition`.
 
-    If ``switching`` is given, each dependent condition stores its relation to the independent conditions.
+    The function ``switching`` expresses the weight of a dependent tree by the weights of independent trees.
+    If ``switching`` is given, the condition of each dependent tree stores this relation.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -115,12 +117,10 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return an index sum. Its terms are products of ``factors`` and of one coefficient for each edge of
-    ``tree``, such as a_ij.
+    """Return an index sum over ``indices`` and over the vertices of ``tree`` below the root.
 
-    The sum runs over ``indices`` and over one index for each vertex of the tree except the root. The last of
-    the ``indices`` is the index of the root. The argument ``below`` is explained in
-    :func:`elementary_weight`.
+    The summand is the product of ``factors`` and of the coefficients of all edges, such as a_ij. The last
+    item of ``indices`` is the index of the root. See :func:`elementary_weight` for ``below``.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)
@@ -135,7 +135,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # At each vertex, the leaves are sorted before the larger branches.
+    # The factors of the leaves come before the factors of the larger branches.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():
