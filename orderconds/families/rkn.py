@@ -1,14 +1,15 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
 brackets of T and V are zero.
 
-If x and y are functions of q alone, [x,[T,y]] is also a function of q alone, because T is quadratic in p.
-Repeated double brackets of this form, starting from V, give a set of functions of q. The Poisson bracket of
-two functions of q is zero. The brackets of all pairs from the set generate an ideal, and all elements of this
-ideal are zero. The element of lowest weight is [V,[V,[V,T]]].
+Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
+p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
+functions of q alone, so [x,y] = 0 for all x and y in F. These brackets generate an ideal of elements that are
+zero. The shortest non-trivial bracket in this ideal is [V,[V,[V,T]]].
 
-Each condition belongs to a linear functional that is zero on the ideal. The functional is written as a linear
-combination of words over T and V. The numbers of conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14,
-25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The functionals that are zero on the ideal form a vector space. There is one condition for each functional in
+a basis of this space. A functional is a linear combination of words over T and V. The numbers of independent
+conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16
+(1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ T, V = 0, 1
 @register
 class NystroemFamily(Family):
     """Splittings into the flows of T and V. The key ``rkn`` of the tableau file states which part is V. Each
-    condition belongs to a linear combination of words over T and V.
+    condition corresponds to a linear combination of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -81,8 +82,11 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return one condition for each element of :func:`functionals`. Each dependent condition stores
-        its left-hand side as a polynomial in left-hand sides of independent conditions."""
+        """Return the conditions of the given order, one for each element of :func:`functionals`.
+
+        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
+        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
+        """
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
@@ -113,20 +117,20 @@ class NystroemFamily(Family):
         """Return this family if the method is a splitting and its tableau file contains the key ``rkn``.
         Otherwise return None.
 
-        A tableau file with the key ``rkn`` should state the order of the method in this family.
+        The tableau file should state the order of the method in the returned family.
         """
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return lower bounds of orders as pairs (family, order). The bounds hold for a symmetric method that
-        has the order ``order`` in this family.
+        """Return pairs (family, bound) for a symmetric method that has the order ``order`` in this family.
+        The order of the method in ``family`` is at least ``bound``.
 
         The bound in this family is ``order``. The bound in the family ``splitting`` is min(``order``, 4).
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence this family and
-        the family ``splitting`` have the same conditions up to order three. A symmetric method of order three
-        has order four, because the order of a symmetric method is even.
+        Up to order three, this family and the family ``splitting`` have the same conditions, because the
+        relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. The order of a symmetric
+        method is even. Hence a symmetric splitting of order three has order four.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -170,8 +174,9 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the left-hand side of the condition of a linear combination of words, as an index sum. The
-    coefficients a_i are the step sizes of T, b_i are the step sizes of V, and c_i = a_1 + ... + a_i.
+    """Return the left-hand side of the condition of ``functional`` as an index sum.
+
+    The step sizes of T are a_i, and the step sizes of V are b_i. Let c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -182,16 +187,16 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the factor by which both sides of a condition are multiplied. This factor is the least positive
-    integer that turns all coefficients of the left-hand side into integers."""
+    """Return the least positive integer factor that turns the coefficients of the left-hand side of a
+    condition into integers. Both sides of the condition are multiplied by this factor."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the linear functionals that are zero on the ideal of the module docstring. Each
-    functional is a linear combination of words of length ``order``.
+    """Return a basis of the linear functionals that are zero on the ideal. Each functional is a linear
+    combination of words of length ``order``. The module docstring defines the ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
@@ -201,8 +206,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return a largest subset of :func:`functionals` that is linearly independent on Lie elements. The
-    conditions of this subset and the conditions of lower order imply the conditions of all functionals.
+    """Return functionals from :func:`functionals` whose conditions are independent. If these conditions and
+    all conditions of lower order hold, the conditions of all other functionals hold, too.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -212,8 +217,10 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the iterated products of V that have the given weight. The product of two elements x and y is
-    the double commutator [x,[T,y]]."""
+    """Return the elements of F whose words have ``weight`` letters. The module docstring defines the set F.
+
+    Of the two elements [x,[T,y]] and [y,[T,x]], only one is included. The difference is in the ideal.
+    """
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -227,8 +234,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return generators of the ideal of the module docstring, up to the weight ``order``. The generators are
-    the commutators [x, y] of pairs x, y from :func:`_potentials`."""
+    """Return generators of the ideal of the module docstring: commutators [x, y], where x and y are
+    elements of F. The words of [x, y] have at most ``order`` letters."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket

@@ -1,9 +1,9 @@
 """Symplectic Lie group integrators (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
 PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
-The family contains the same methods as ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods in which
-dexpinv is replaced by the identity, so that no brackets are computed. The order is at most two. The methods
-with one stage are theta-methods.
+The family contains the same methods as ``vrkmk(0)``. They are variational Runge-Kutta-Munthe-Kaas methods.
+The identity replaces dexpinv, the inverse of the differential of exp. Hence a step computes no brackets, and
+the order is at most two. The methods with one stage are theta-methods.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim that a method has the order ``order`` in the family ``slgi``."""
+        """Return an :class:`OrderClaim`: a method has the order ``order`` in the family ``slgi``."""
         return OrderClaim(self.name, None, order)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file states the order in the family ``vrkmk(0)`` instead, because a method
-        has the same order in both families."""
+        """Return None. Tableau files state the order only in the family ``vrkmk(0)``, because a method has
+        the same order in both families."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -56,6 +56,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the larger of the order in ``vrkmk(0)`` and the lower bound from
-        the base class."""
+        """Return the larger of two lower bounds of the order in this family.
+
+        One bound is the order in ``vrkmk(0)``. The other bound is the result of the base class.
+        """
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

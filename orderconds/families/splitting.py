@@ -1,10 +1,12 @@
 """Splittings of a vector field A + B + .... The summands A, B, ... are called the parts of the splitting.
 Each step is a product of flows of the parts.
 
-The conditions are indexed by words over A, B, .... If there are two parts, one step of size h is the product
-``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B) exp(a_1 h A)``. The rightmost flow acts first, so A acts first in
-each stage. In the exact flow, every word of n letters has the coefficient 1/n! (HLW III.5; McLachlan and
-Quispel, Acta Numerica 11 (2002) 341).
+For two parts, one step of size h is ``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B) exp(a_1 h A)``. The
+rightmost flow acts first, so A acts first in each stage.
+
+There is one condition for each word over A, B, .... In the series of the exact flow, every word of n letters
+has the coefficient 1/n!. In the series of the step, the word must have the same coefficient (HLW III.5;
+McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -40,8 +42,8 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings of a vector field into several fields, called parts. The argument ``parts`` is the number of
-    parts. A word is a sequence of indices 0, 1, ... of parts. In texts the parts are denoted by A, B, ....
+    """Splittings of a vector field into ``parts`` fields, called parts. A word is a sequence of the indices
+    0, 1, ... of the parts. The printed form of a word contains the letters A, B, ... for these indices.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -51,8 +53,8 @@ class SplittingFamily(WordFamily):
 
     name = "splitting"
     description = (
-        "Splittings of a vector field A + B + ...: products of the flows of A, B, ...; the conditions are "
-        "indexed by words over A, B, ..."
+        "Splittings of a vector field A + B + ...: products of the flows of A, B, ...; each condition "
+        "corresponds to a word over A, B, ..."
     )
     formats = ("splitting",)
     symbols: ClassVar[Mapping[str, str]] = {
@@ -105,18 +107,18 @@ class SplittingFamily(WordFamily):
         return Fraction(1, factorial(len(word)))
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which both sides of the condition of a word are multiplied.
+        """Return the product of the factorials of the run lengths of ``word``. A run is a maximal block of
+        equal letters.
 
-        The factor is the product of the factorials of the run lengths. A run is a maximal block of equal
-        letters.
+        Both sides of the condition of ``word`` are multiplied by this factor.
         """
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as an index sum.
 
-        The coefficients a_i, b_i, ... are the step sizes of the fields A, B, ... in stage i. If there are
-        only two fields A and B, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
+        The coefficients a_i, b_i, ... are the step sizes of the fields A, B, ... in stage i. For two fields,
+        the formula also contains the sums c_i = a_1 + ... + a_i.
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
@@ -126,9 +128,10 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting, or for a composition of a method and its adjoint, else None.
+        """Return this family if the method is a splitting or a composition of a method with its adjoint.
+        Otherwise return None.
 
-        The tableau file of such a method should state the order of the method in this family.
+        The tableau file should state the order of the method in the returned family.
         """
         method = tableau.method
         if isinstance(method, AdjointComposition):
@@ -136,8 +139,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that follows from the order in the family ``rkn``. The bound is
-        at most 3, because both families have the same conditions only up to order 3."""
+        """Return a lower bound of the order in this family. The bound is the order in the family ``rkn``,
+        but at most 3. Up to order 3, both families have the same conditions."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -145,8 +148,8 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return ``rkn``, the label of the family of Nystroem splittings, if ``nystroem`` is true. Otherwise
-        return the label of this family. The option ``--rkn`` sets ``nystroem``."""
+        """Return the label ``rkn`` if ``nystroem`` is true. Otherwise return the label of this family. The
+        option ``--rkn`` sets ``nystroem``."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -178,8 +181,8 @@ class SplittingFamily(WordFamily):
 def splitting_formula(word: Word) -> Formula:
     """Return the left-hand side of the condition of a word as an index sum.
 
-    The left-hand side is the coefficient of the word in the series of one step, times the factorials of the
-    run lengths. A run is a maximal block of equal letters.
+    The left-hand side is the product of two factors. One factor is the coefficient of the word in the series
+    of one step. The other factor is the result of :meth:`SplittingFamily.scale`.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()
@@ -192,9 +195,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # A block of equal letters belongs to stage i, and the next block belongs to stage j. In each
-            # stage, the flow of A acts first, then the flow of B, and so on. Hence both blocks may belong to
-            # the same stage if their letters are in alphabetical order.
+            # The letters of a block act in stage i, and the letters of the next block act in stage j. In each
+            # stage, A acts before B, B acts before C, and so on. Hence i = j is possible only for letters in
+            # alphabetical order.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -208,9 +211,9 @@ def splitting_formula(word: Word) -> Formula:
 def two_part_formula(word: Word) -> Formula:
     """Return the left-hand side of the condition of a word over two letters A and B, as an index sum.
 
-    Let c_i = a_1 + ... + a_i. If the first letter B belongs to stage k, each letter A before it gives the
-    factor c_k. Let i be the stage of a letter B, and let j be the stage of the next letter B. Each letter A
-    between these two letters B gives the factor c_j - c_i.
+    Let c_i = a_1 + ... + a_i. A letter B in stage i gives the factor b_i. If the first letter B is in stage
+    i, each letter A before this B gives the factor c_i. If two consecutive letters B are in the stages i
+    and j, each letter A between them gives the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -252,22 +255,21 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield all ways to divide runs of equal letters into blocks. ``lengths`` contains the lengths of the
-    runs.
+    """Yield all ways to divide runs of equal letters into blocks, as pairs (factor, blocks).
 
-    Each result is a pair. The first entry is a product of multinomial coefficients, one for each run. The
-    second entry contains the block lengths of each run.
+    ``lengths`` contains the lengths of the runs, and ``blocks`` contains the block lengths of each run. A run
+    of length n with block lengths n_1, n_2, ... contributes n!/(n_1! n_2! ...) to the product ``factor``.
     """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names ``a``, ``b``, ... to the step sizes of the parts A, B, .... Each value of
-    the map is a list with one step size for each stage.
+    """Return a map from the names ``a``, ``b``, ... to the step sizes of the parts A, B, .... Each value is a
+    list with one step size for each stage.
 
-    If a stage does not contain the flow of a part, the step size is zero. For two parts, the map also
-    contains ``c``, the list of the sums a_1 + ... + a_i.
+    If a part does not act in a stage, its step size in this stage is zero. For two parts, the map also
+    contains ``c``, the list of the sums c_i = a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -1,11 +1,13 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-Suppose that two trees differ only in the choice of the root, and the two roots are neighbours. Then the sum
-of their elementary weights is a product of weights of smaller trees, because b_i ahat_ij + b_j a_ji = b_i
-b_j. If the conditions of the smaller trees hold, the conditions of the two trees are equivalent. Therefore
-one condition for each free tree (a tree without a root) suffices. The edges of the free trees are directed
-(Abia and Sanz-Serna 1993; HLW VI.7).
+An edge of a tree that points away from the root gives a factor a_ij in the elementary weight. An edge that
+points to the root gives a factor ahat_ij. The directions of the edges do not depend on the root.
+
+Let the root of a tree move to a neighbour. The elementary weights before and after the move add up to a
+product of elementary weights of smaller trees, because the methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j.
+If the conditions of the smaller trees hold, the two conditions are equivalent. Therefore one condition
+suffices for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ from orderconds.trees.directed import (
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. Each free tree, with one choice of the root, is an independent tree."""
+of independent trees. The independent trees contain one rooted version of each free tree."""
 
 
 @register
@@ -75,8 +77,8 @@ class SymplecticPartitionedFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with directed edges.
 
-        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
-        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
+        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
         """
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
@@ -103,24 +105,26 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state an order in this family, else None.
+        """Return this family if ``tableau`` has the form (A, b) without zero weights. Otherwise return None.
 
-        The file should state an order if the tableau has the form (A, b) without zero weights.
+        The tableau file should state the order of the method in the returned family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the tableau is proved to be symmetric. The symmetry of (a, b) implies that
-        the conjugate tableau (ahat, b) is symmetric."""
+        """Return True if the tableau (a, b) is proved to be symmetric. In this case the tableau (ahat, b)
+        is symmetric, too."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order of ``method`` in this family.
 
-        ``orders`` contains the order p of the method in the family ``rk``. For a symplectic tableau, ahat_ij
-        equals a_ij, and the bound is p. For all other tableaux, let m be the largest number with 2m <= p for
-        which Butcher's simplifying assumptions C(m) and D(m) hold. Then C(m) and D(m) also hold for ahat_ij,
-        and the bound is min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+        ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, ahat_ij
+        equals a_ij, and the bound is p.
+
+        For all other tableaux, the bound is min(p, 2m + 1). Here m <= p/2 is the largest integer for which
+        Butcher's simplifying assumptions C(m) and D(m) hold. These assumptions also hold for ahat_ij (Jay
+        1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

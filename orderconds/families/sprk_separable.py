@@ -1,11 +1,12 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-The conditions belong to trees with vertices of two colours, one for p and one for q. Neighbouring vertices
-differ in colour, because H is separable. The tableaux (a, b) and (ahat, bhat) form a symplectic pair if b_i
-ahat_ij + bhat_j a_ji = b_i bhat_j. Suppose that two trees differ only in the choice of the root, and that all
-conditions of lower order hold. For a symplectic pair, the conditions of the two trees are equivalent.
-Therefore one condition for each free tree (a tree without a root) suffices (Abia and Sanz-Serna 1993; HLW
-VI.7.2). The weights b and bhat may differ, for example if the pair is equivalent to a splitting.
+The tableaux (a, b) and (ahat, bhat) form a symplectic pair if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all
+i and j. The weights b and bhat may differ, for example if the pair is equivalent to a splitting.
+
+There is one condition for each rooted tree whose vertices have two colours, one for p and one for q.
+Neighbouring vertices differ in colour, because H is separable. Let all conditions of lower order hold. If two
+trees differ only in the choice of the root, their conditions are equivalent. Therefore one condition suffices
+for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7.2).
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. Each free tree, with one choice of the root, is an independent tree."""
+of independent trees. The independent trees contain one rooted version of each free tree."""
 
 
 @register
@@ -62,8 +63,8 @@ class SeparableFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with alternating colours.
 
-        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
-        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
+        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
         """
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
@@ -91,9 +92,9 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state an order in this family, else None.
+        """Return this family if ``tableau`` is a symplectic pair. Otherwise return None.
 
-        The file should state an order if the tableau is a symplectic pair.
+        The tableau file should state the order of the method in the returned family.
         """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
@@ -104,7 +105,7 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of one tableau (A, b). They are the unknowns of a search for methods."""
+        """Return the unknown coefficients of a tableau (A, b) with ``stages`` stages."""
         return tableau_form(stages, explicit, divides=True)
 
 

@@ -1,5 +1,5 @@
-"""The named coefficients of a method with a fixed number of stages, and the function that builds the
-method."""
+"""A description of methods with a fixed number of stages: the names of the coefficients, and a function
+that builds a method from values."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class StageForm(Struct, frozen=True):
     ``names`` contains the names of the coefficients. The function ``method`` builds the method from the
     values of the coefficients. The values are elements of a ring.
 
-    ``divides`` is true if formulas of the family divide by the weights b_i.
+    ``divides`` is true if the left-hand sides of the order conditions contain divisions by weights b_i.
     """
 
     names: tuple[Name, ...]
@@ -32,7 +32,8 @@ class StageForm(Struct, frozen=True):
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
     """Return the :class:`StageForm` of a Butcher tableau (A, b) with ``stages`` stages. The matrix A is
-    strictly lower triangular if ``explicit`` is true, otherwise full.
+    strictly lower triangular if ``explicit`` is true, otherwise full. The result has the attribute
+    ``divides``.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))
@@ -50,9 +51,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. The option ``explicit``
-    restricts the matrix A of a method to strictly lower triangular matrices. Families whose methods have no
-    matrix A call this function.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. A method is explicit if its
+    matrix A is strictly lower triangular. The methods of some families have no matrix A.
 
     >>> refuse_explicit("splitting", False)
     """

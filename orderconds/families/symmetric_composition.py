@@ -1,10 +1,11 @@
 """Symmetric compositions of a symmetric method of order two.
 
 One step of the basic method is the exponential of a power series in the step size h. The series contains
-only odd powers of h, because the basic method is symmetric. Each condition belongs to a word. Letter k of a
-word denotes the term with h^k in the series, so all letters are odd. The composition is symmetric, because
-its step sizes form a palindrome. Hence its conditions of even order follow from conditions of lower order
-(HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+only odd powers of h, because the basic method is symmetric. There is one condition for each word. The letters
+of a word are numbers. A letter k denotes the term with h^k in the series, so all letters are odd.
+
+The composition is symmetric, because its step sizes form a palindrome. Hence its conditions of even order
+follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -53,7 +54,8 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     name = "symmetric_composition"
     description = (
-        "Symmetric compositions of a symmetric method of order two; independent conditions have odd orders."
+        "Symmetric compositions of a symmetric method of order two; all independent conditions have odd "
+        "order."
     )
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
@@ -79,13 +81,13 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words of odd letters with the sum ``order``. If ``order`` is even, the result is
-        empty, because conditions of even order follow from conditions of lower order."""
+        """Return the Lyndon words whose letters are odd numbers with the sum ``order``. Return no words for
+        even ``order``, because conditions of even order follow from conditions of lower order."""
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word in the series of one step as a polynomial in the coefficients of
-        Lyndon words of odd weight."""
+        """Return the coefficient of ``word`` in the series of one step. It is a polynomial in the
+        coefficients of the Lyndon words of odd weight. The weight of a word is the sum of its letters."""
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -93,9 +95,9 @@ class SymmetricCompositionFamily(CompositionFamily):
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the first half of the step sizes. They are the unknowns of a search for methods.
+        """Return the unknowns of a method with ``stages`` stages: the first half of the step sizes.
 
-        If ``stages`` is odd, the middle step size is also an unknown. The second half follows by symmetry.
+        For odd ``stages``, the middle step size is also an unknown. The second half follows by symmetry.
         """
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
@@ -105,10 +107,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state an order in this family, else None.
+        """Return this family if the method is a composition of a symmetric method and the step sizes form a
+        palindrome. Otherwise return None.
 
-        The file should state an order if the method is a composition of a symmetric method and its step sizes
-        form a palindrome.
+        The tableau file should state the order of the method in the returned family.
         """
         method = tableau.method
         if not isinstance(method, Composition):
@@ -116,7 +118,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None, because no family with fewer conditions is known for symmetric compositions."""
+        """Return None. For symmetric compositions, no family with fewer conditions is known."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -143,10 +145,10 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The coefficient of a word of even weight in the logarithm of the step is zero. It is a sum over all ways
-    # to cut the word into parts. Each term is the product of the coefficients of the parts in the series of
-    # the step. A term with m parts has the factor (-1)^(m+1)/m. The term with m = 1 is the coefficient of the
-    # whole word. It equals the sum of the other terms with the opposite sign.
+    # The step is symmetric, so words of even weight have the coefficient zero in the logarithm of the step.
+    # Each way to cut the word into m parts gives a term of this coefficient. The term is (-1)^(m+1)/m times
+    # the coefficients of the parts in the series of the step. The term with m = 1 is the coefficient of the
+    # whole word. Hence this coefficient is minus the sum of the terms with m > 1.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

@@ -1,7 +1,8 @@
-"""Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Free trees index the conditions.
+"""Symplectic Runge-Kutta methods. The coefficients satisfy b_i a_ij + b_j a_ji = b_i b_j for all i and j.
 
-If an edge divides a free tree into two equal halves, the condition of the tree follows from conditions of
-lower order (Sanz-Serna and Abia 1991; HLW VI.7.1, Theorem 7.3).
+There is one condition for each free tree, which is a tree without a root. If an edge divides a free
+tree into two equal halves, the condition of the tree follows from conditions of lower order (Sanz-Serna
+and Abia 1991; HLW VI.7.1, Theorem 7.3).
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. Each free tree, with one choice of the root, is an independent tree. If an edge divides
-a free tree into two equal halves, the tree is left out."""
+of independent trees. The independent trees contain one rooted version of each free tree that no edge divides
+into two equal halves."""
 
 
 @register
@@ -38,7 +39,8 @@ class SymplecticFamily(Family):
 
     name = "symplectic_rk"
     description = (
-        "Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Free trees index the conditions."
+        "Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Each condition corresponds to a "
+        "free tree."
     )
     formats = ("rk",)
     trees = "free"
@@ -56,8 +58,8 @@ class SymplecticFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree.
 
-        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
-        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
+        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
         """
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 

@@ -1,9 +1,10 @@
 """Taylor's method of degree P: each step evaluates the Taylor polynomial of the solution.
 
-Recurrences compute the coefficients of the polynomial (automatic differentiation). The family has no
-tableau and no order conditions, because the order is P for every vector field (A. Jorba and M. Zou, *A
-software package for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental
-Mathematics 14 (2005) 99).
+Recurrences compute the coefficients of the polynomial (automatic differentiation). The method has no tableau.
+Its order is P for every vector field, so it has no order conditions.
+
+Source: A. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order
+Taylor methods*, Experimental Mathematics 14 (2005) 99.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work
 
 HIGHEST = 40
-"""The highest degree P. The size of the emitted code grows with the square of the degree."""
+"""The highest degree P. It is limited, because the size of the emitted code grows like P^2."""
 
 
 @register
