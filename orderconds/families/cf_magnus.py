@@ -56,7 +56,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
     implies: ClassVar[Mapping[str, str]] = {
-        "magnus": "a product of exponentials is also the exponential of its logarithm"
+        "magnus": "a product of exponentials is also a single exponential"
     }
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -1,8 +1,8 @@
 """Exponents of methods for Y' = A(t) Y as series over words.
 
 The exponents are linear combinations of products of the values A_i = h A(c_i h), where c_i are the nodes. If
-A(t) = X_1 + t X_2 + ..., then A_i = sum_k c_i^(k-1) h^k X_k. The letter k of a word denotes X_k and has the
-weight k. The first letter of a word acts first.
+A(t) = X_1 + t X_2 + ..., then A_i = sum_k c_i^(k-1) h^k X_k. The letter k denotes X_k and has the weight k.
+In a word, the letters appear in the order in which they act.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the coefficient of a word in the product ``then * first``."""
+        """Return the coefficient of a word in the product ``then * first``, where ``first`` acts first."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

@@ -5,9 +5,9 @@ is a combination of brackets, written as a sum of products. If a method has more
 exp(F_2) denotes the product of all factors except exp(F_1).
 
 Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... A
-word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. If these
-conditions are satisfied, F_1 approximates the integral of A over one step. The conditions of longer words
-compare F_2 with the logarithm of exp(-F) Y, where F is this integral and Y is the exact flow.
+word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. Under
+these conditions F_1 approximates F, the integral of A over one step. Let Y be the exact flow. The conditions
+of longer words compare F_2 with the logarithm of exp(-F) Y.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
 Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
@@ -55,9 +55,7 @@ class FerFamily(MagnusFamily):
         "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i and F_2 contains "
         "only brackets."
     )
-    implies: ClassVar[Mapping[str, str]] = {
-        "magnus": "the step of a Fer method is also the exponential of its logarithm"
-    }
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "the step of a Fer method is also a single exponential"}
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
@@ -101,8 +99,8 @@ class FerFamily(MagnusFamily):
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return a function that maps each word to the left-hand side of its condition.
 
-        Let F_1 be the exponent that acts last. A single letter is mapped to its coefficient in F_1. A longer
-        word is mapped to its coefficient in the logarithm of the product of all factors except exp(F_1).
+        The exponent F_1 acts last. Let F_2 be the logarithm of the product of all other exponentials. The
+        left-hand side is the coefficient of the word in F_1 for one letter, and in F_2 for longer words.
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

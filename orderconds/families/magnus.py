@@ -1,9 +1,9 @@
 """Magnus methods for Y' = A(t) Y. One step is the exponential of Omega. The exponent Omega is a linear
 combination of the values A_i = h A(c_i h) and of their brackets, where c_i are the nodes.
 
-If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... In printed
-conditions, omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts first. If a step is
-a product of several exponentials, Omega is the logarithm of this product.
+If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... The number
+omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts first. If a step is a product
+of several exponentials, Omega is the logarithm of this product.
 
 Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... The
 condition states that the word has the same coefficient in Omega and in the Magnus expansion (Iserles,
@@ -65,7 +65,7 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is also the exponential of its logarithm",
+        "a product of exponentials is also a single exponential",
     )
     transform: ClassVar[str] = "exp"
 
@@ -95,7 +95,8 @@ class MagnusFamily(WordFamily):
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of nodes, exponentials and commutators in one step."""
+        """Return the numbers of nodes, different exponents and commutators of a Magnus method. For another
+        method, return None."""
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
@@ -107,16 +108,12 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word.
-
-        For a word with the letters k_1, k_2, ..., the left-hand side is the sum of
-        omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
-        """
+        """Return the left-hand side of the condition of a word, a sum over nodes (:func:`node_sum`)."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word in the exponent Omega as a linear combination of the coefficients
-        of Lyndon words."""
+        """Return the coefficient of a word in Omega as a linear combination of coefficients of Lyndon
+        words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -129,7 +126,7 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the sum for the word k_1 k_2 ... over all indices i, j, ... of nodes.
+    """Return a sum over the nodes i, j, .... Let k_1, k_2, ... be the letters of the word.
 
     If ``name`` is "omega", the terms of the sum are omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
 
@@ -146,9 +143,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
     Lyndon words. This combination is the same for all Lie elements.
 
-    With respect to the shuffle product, ``word`` is a polynomial in Lyndon words. The nonlinear terms of the
-    polynomial are shuffle products of two or more words, and these have the coefficient zero in a Lie
-    element. Therefore the result is the linear part of the polynomial.
+    The word is a polynomial in Lyndon words with the shuffle product. In a Lie element, a shuffle product of
+    two or more words has the coefficient zero. Therefore only the linear part of the polynomial remains.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

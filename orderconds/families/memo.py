@@ -1,8 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... The series of the method computes values
-on large trees from values on smaller trees. The cache keeps the series, so values computed at one order are
-available at the next order.
+A check evaluates the conditions of one method for orders 1, 2, .... The value of a series on a large tree is
+computed from values on smaller trees. The cache keeps the series with all computed values. Higher orders use
+these values.
 """
 
 from __future__ import annotations

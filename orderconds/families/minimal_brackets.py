@@ -1,8 +1,8 @@
 """Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. The compiler emits such a program
-for a method of the family ``rkmk`` without ``cutoff``.
+for a method of the family ``rkmk`` without truncation of dexpinv.
 
-The family checks the order of the program. It uses the order conditions of ``rkmk``, and computes their
-left-hand sides from the Lie-Butcher series of the program.
+The order of the program is checked with the order conditions of ``rkmk``. The left-hand sides of these
+conditions are coefficients of the Lie-Butcher series of the program.
 """
 
 from __future__ import annotations
@@ -38,16 +38,16 @@ class MinimalBrackets(MuntheKaasFamily):
         self.program = program
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of the method that :attr:`program` computes. The argument ``method``
-        is not used."""
-        # The ring Enclosures needs balls of the library flint. The attribute ``value`` of a coefficient of
-        # the program is such a ball.
+        """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
+        used."""
+        # The ring Enclosures computes with balls of the library flint. A coefficient of the program stores
+        # its ball in the attribute ``value``.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return a copy of this family. The function ``convert`` maps each coefficient of the program to the
-        coefficient in the copy."""
+        """Return a copy of this family. The function ``convert`` converts each coefficient of the
+        program."""
 
         def row(given: Row) -> Row:
             return {name: convert(x) for name, x in given.items()}
@@ -63,5 +63,5 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, because the theorem on the truncation of dexpinv does not apply to the program."""
+        """Return None, because the theorem on the truncation of dexpinv does not apply to ``program``."""
         return None

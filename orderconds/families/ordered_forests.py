@@ -1,12 +1,12 @@
 """Families whose conditions are indexed by Lyndon words. The letters are ordered trees, so a word is an
 ordered forest.
 
-The series of a Lie group method has one coefficient for each word, and the coefficients satisfy the shuffle
-relations. The coefficients of Lyndon words therefore determine all other coefficients
+The series of a Lie group method has one coefficient for each word. The coefficients satisfy the shuffle
+relations, so the coefficients of Lyndon words determine all other coefficients
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
-Each condition is multiplied by the factorial of the length of its word. In addition, it is multiplied by the
-factorial of the number of branches at each vertex. For example, the root of the tree [..] has two
+Both sides of a condition are multiplied by the factorial of the length of the word, and by the factorial of
+the number of branches at each vertex of the trees. For example, the root of the tree [..] has two
 branches, so 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
 """
 
@@ -42,8 +42,8 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of one step of ``method``. The series maps an ordered forest to its
-        coefficient, an element of ``ring``."""
+        """Return the Lie-Butcher series of one step of ``method``. The series maps an ordered forest to an
+        element of ``ring``."""
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
@@ -58,7 +58,7 @@ class OrderedForestFamily(Family):
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each ordered forest. Each dependent
-        condition stores its left-hand side as a polynomial in left-hand sides of independent conditions."""
+        condition stores a relation (:mod:`orderconds.families.relations`)."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -70,8 +70,8 @@ class OrderedForestFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of each condition: the coefficient of the forest in the series of one
-        step, times the factor :func:`scale`."""
+        """Return the left-hand sides of ``conditions`` for ``method``. Each left-hand side is a coefficient
+        of the series times the factor :func:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 
@@ -91,8 +91,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the product of the factorials of all word lengths in a forest. The trees of the forest form a
-    word. The branches at each vertex form another word.
+    r"""Return the product of the factorials of the lengths of all words in a forest. A forest is a word, and
+    its letters are trees. The branches at each vertex also form a word.
 
     >>> scale(b"\0\1\1\0")
     4
@@ -113,8 +113,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word in a forest. The trees of the forest form a word. The branches
-    at each vertex form another word.
+    r"""Return the length of the longest word in a forest. A forest is a word, and its letters are trees. The
+    branches at each vertex also form a word.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

@@ -60,7 +60,8 @@ class PartitionedFamily(Family):
     }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order. All of them are independent (HLW III.2, Theorem 2.5)."""
+        """Return the conditions of the given order. The conditions are independent (HLW III.2, Theorem
+        2.5)."""
         trees = tuple(bicoloured.bicoloured_rooted_trees(order))
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
@@ -79,8 +80,8 @@ class PartitionedFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a pair of tableaux that is not symplectic, else None.
 
-        The tableau file of a pair that is not symplectic should state the order of the method in this family.
-        For a symplectic pair, the file should state the order in the family ``sprk_separable`` instead.
+        The tableau file of such a pair should state the order of the method in this family. The file of a
+        symplectic pair should state the order in the family ``sprk_separable``.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
@@ -92,8 +93,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family ``sprk`` and the first tableau of a symplectic pair with b = bhat and non-zero
-        weights. Return None for any other method.
+        """For a symplectic pair with b = bhat and non-zero weights, return the family ``sprk`` and the first
+        tableau of the pair. For other methods, return None.
 
         The conditions of ``sprk`` are indexed by free trees (HLW VI.7, Theorem 7.4).
         """

@@ -51,8 +51,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file states the order in the family ``prk`` instead, because a method has
-        the same order in both families."""
+        """Return None. A method has the same order in this family and in ``prk``, so the tableau file states
+        only the order in ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -54,15 +54,16 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Add the class of a family to the registry, and return this class. Commands and tableau files can then
-    name the family. The function may be used as a decorator.
+    """Add the class of a family to the registry, and return this class. A registered family can be named in
+    commands and tableau files. The function may be used as a decorator.
 
-    An installed package adds a family by an entry point of the group ``orderconds.families``. Raises
-    :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
-    family has the same name. A name consists of lower-case letters, digits and ``_``.
+    An installed package adds a family by an entry point of the group ``orderconds.families``.
 
-    The family of the example has one condition for each order: the condition of the bushy tree, which
-    consists of a root and its children.
+    Raises :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if
+    another family has the same name. A name consists of lower-case letters, digits and ``_``.
+
+    The family in the example has one condition for each order, the condition of the bushy tree. This tree
+    has only a root and children of the root.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -121,7 +122,7 @@ def unregister(name: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the built-in families, followed by the names of families added by :func:`register`.
+    """Return the names of the built-in families, followed by the names that :func:`register` added.
 
     >>> names()[:3]
     ('rk', 'prk', 'prk_same_weights')
@@ -130,8 +131,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names of the families whose methods are given by tableaux. Only these families have order
-    conditions.
+    """Return the names of the families with order conditions. The methods of these families are given by
+    tableaux.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -140,7 +141,7 @@ def with_conditions() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, followed by the names of families in installed packages.
+    """Return :func:`names`, followed by the names of unregistered families in installed packages.
 
     >>> set(names()) <= set(installed_names())
     True
@@ -162,8 +163,8 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of the family ``name``. Entry points are read only if the name is not
-    registered.
+    """Return the class of the family ``name``. If the name is not registered, the entry points of installed
+    packages are read.
 
     Raises :class:`~orderconds.errors.UnknownName` if no family has this name.
 

@@ -1,13 +1,13 @@
-"""Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
-conditions.
+"""Relations of dependent conditions. The left-hand side of a dependent condition is a polynomial in the
+left-hand sides of independent conditions.
 
 Two laws make conditions dependent.
 
 - The elementary weights phi(t) of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) for all
   trees u and v. Here u o v is the tree u with v as an additional branch of the root (HLW VI.7.1).
-- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v), where u sh v is
-  the shuffle product. Therefore the coefficients of Lyndon words determine all other coefficients
-  (Reutenauer, Free Lie Algebras, Thm 6.1).
+- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v). The
+  shuffle product u sh v is a sum of words, and a is linear. Therefore the coefficients of Lyndon
+  words determine all other coefficients (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
 Polynomial = dict[tuple[Any, ...], Fraction]
-"""A polynomial whose variables are the left-hand sides of conditions. A left-hand side is denoted by the key
-of its condition. The polynomial maps each monomial, a sorted tuple of keys, to its coefficient."""
+"""A polynomial in the left-hand sides of conditions. The key of a condition denotes its left-hand side. A
+monomial is a sorted tuple of keys. The dictionary maps each monomial to the coefficient of the monomial."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function of a tree. For each edge at the root of this tree, the function yields three trees u, v, w.
-Without the edge, the tree is divided into two trees: u contains the root, and v does not. The tree w is v
-with u as an additional branch of the root of v."""
+"""A function of a tree. For each edge at the root, the function yields three trees u, v, w. Removal of the
+edge leaves the tree u, which contains the root, and the tree v. The tree w is v o u, which is v with u as an
+additional branch of the root."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -120,9 +120,9 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions, and store a relation in each dependent condition. The relation is the left-hand
-    side of the condition as a polynomial in the left-hand sides of independent conditions. The function
-    ``polynomial`` maps the key of a condition to this polynomial. The function ``text`` writes a key as text.
+    """Return the conditions. Each dependent condition stores a relation, which expresses its left-hand side
+    as a polynomial in left-hand sides of independent conditions. The function ``polynomial`` maps the key of
+    a condition to this polynomial. The function ``text`` converts a key to text.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -153,8 +153,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # In a group-like series, the product of the coefficients of the factors is the coefficient of their
-    # shuffle product. This shuffle product is a multiple of ``word`` plus lexicographically smaller words.
+    # In a group-like series, a product of coefficients of words is the coefficient of the shuffle product of
+    # these words. The shuffle product of ``factors`` contains ``word`` and lexicographically smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -173,10 +173,10 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return the coefficient of a word of trees in a group-like series, as a polynomial in the coefficients
-    of Lyndon words.
+    r"""Express a coefficient of a group-like series as a polynomial in the coefficients of Lyndon words.
 
-    All coefficients of words are scaled: the coefficient of a word ``w`` is multiplied by ``scale(w)``.
+    The argument ``forest`` is the word of the coefficient, and its letters are trees. The coefficient of each
+    word ``w`` is multiplied by ``scale(w)``.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -1,5 +1,5 @@
-"""Runge-Kutta methods. For each rooted tree, the condition is: elementary weight = 1/gamma, where gamma is
-the density of the tree (HLW III.1, Thm 1.5)."""
+"""Runge-Kutta methods. For each rooted tree, the condition is that the elementary weight is 1/gamma. Here
+gamma is the density of the tree (HLW III.1, Thm 1.5)."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b) of the method. If the file has another format than (A, b), return the
-        tableau of the Runge-Kutta method to which the method reduces on an abelian group."""
+        """Return the tableau (A, b) of the method. If the method has no such tableau, return the tableau of
+        the Runge-Kutta method to which it reduces on an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
@@ -100,7 +100,8 @@ def symmetric_tableau(method: Method, ring: Ring) -> bool:
 
 
 def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
-    """Return the weights b_i of a tableau that can be interpreted as (A, b), or None for other formats.
+    """Return the weights b_i of a Runge-Kutta tableau, or the coefficients gamma_i of a composition. Return
+    None for other formats.
 
     >>> from orderconds.tableau import find
     >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]
@@ -113,8 +114,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Return True if a tableau can be interpreted as (A, b). If ``nonzero`` is true, all weights must also be
-    proved to be non-zero.
+    """Return True for a Runge-Kutta tableau or a composition. If ``nonzero`` is true, all numbers in
+    :func:`weights_of` must also be proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))
@@ -136,8 +137,8 @@ def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
 
 
 def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
-    r"""Return one condition for each tree: elementary weight = 1/gamma, where gamma is the density of the
-    tree (HLW III.1, Theorem 1.5). Each condition stores the label ``family``.
+    r"""Return one condition for each tree: the elementary weight is 1/gamma, where gamma is the density of
+    the tree (HLW III.1, Theorem 1.5). ``family`` is the label of the conditions.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3

@@ -1,12 +1,13 @@
-"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. It is a
-power series in the operator ad. The family ``rkmk(r)`` truncates this series after the power r of ad. The
-family ``rkmk`` does not truncate the series.
+"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. This
+inverse is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the power r
+of ad. The family ``rkmk`` does not truncate the series.
 
-The left-hand sides of conditions are coefficients of Lyndon words in the Lie-Butcher series of the method.
+The left-hand side of a condition is a multiple of a coefficient in the Lie-Butcher series of the method. Each
+condition belongs to a Lyndon word.
 
-Let p be the order of the tableau as a Runge-Kutta method. Let R = r if r is 0 or odd. If r >= 2 is even, let
-R = r + 1, because the Bernoulli number B_{r+1} is zero. Then a method of ``rkmk(r)`` has the order
-min(p, R + 2). This theorem is not used to derive the conditions.
+Let p be the order of the tableau as a Runge-Kutta method. If r >= 2 is even, let R = r + 1. Otherwise let
+R = r. A method of ``rkmk(r)`` has the order min(p, R + 2). For even r >= 2 the Bernoulli number B_{r+1} is
+zero, so truncation after the powers r and R gives the same method.
 """
 
 from __future__ import annotations
@@ -77,46 +78,44 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     minimal_brackets = 6
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of one step of a tableau (A, b)."""
+        """Return the Lie-Butcher series of one step of a method with a tableau (A, b)."""
         tableau = expect(method, RungeKutta)
         return DexpinvSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None.
+        """Return this family for a Runge-Kutta tableau or a composition, else None.
 
-        The file of such a tableau should state the order of the method in this family.
+        The tableau file of such a method should state the order of the method in this family.
         """
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in a forest. The trees of the forest form a word. The
-        branches at each vertex form another word."""
+        """Return the length of the longest word in a forest. A forest is a word, and its letters are trees.
+        The branches at each vertex also form a word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
+        """Return the condition of the word ``[.] . ... .`` of the given order.
 
-        The condition belongs to the word ``[.] . ... .``, which consists of one tree with two vertices and
-        ``order`` - 2 trees with one vertex. Let R be the number from the module docstring. If ``order`` is
-        R + 3, no method with truncated dexpinv satisfies this condition. The truncation of dexpinv changes no
-        condition of an order below R + 3.
+        The word has one tree with two vertices and ``order`` - 2 trees with one vertex. The module docstring
+        defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the returned condition
+        and all other conditions up to this order. If dexpinv is not truncated or ``order`` < 3, return None.
         """
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent :meth:`conditions` of the given order. Together with the conditions of lower
-        order, they imply all :meth:`conditions` of the given order.
+        """Return independent conditions of the given order. Together with the conditions of lower order, the
+        returned conditions imply all :meth:`conditions` of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. Let R be the
-        number from the module docstring. If dexpinv is truncated, there is one more independent condition at
-        order R + 3. No tableau satisfies this condition, so the order is at most R + 2.
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. The module
+        docstring defines R. If dexpinv is truncated, there is one more independent condition at order R + 3.
+        No tableau satisfies all conditions up to order R + 3, so the order is at most R + 2.
 
-        The computation requires NumPy. If ``order`` is above :data:`RANKED`, all :meth:`conditions` are
-        returned.
+        The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -142,8 +141,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def highest_order(self, limit: int) -> int:
         """Return the highest order of methods that truncate dexpinv after the power ``self.cutoff`` of ad.
-        The result is at most ``limit``. ValueError is raised if ``limit`` is above :data:`RANKED`, because
-        the independent conditions of higher orders are not known.
+        The result is at most ``limit``. Raises ValueError if ``limit`` is above :data:`RANKED`, because the
+        independent conditions are not computed above this order.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -165,7 +164,7 @@ class _Words:
 
     Let u_i be the exponent of stage i, and let k_j be the value of the vector field at stage j. Let
     dexpinv_u be the inverse of the differential of exp at u. Then u_i = sum_j a_ij dexpinv_{u_j}(k_j). If
-    the argument ``i`` of a method is None, u_i is the exponent of the whole step, and b_j replaces a_ij.
+    the index ``i`` is None, u_i is the exponent of the whole step, and b_j replaces a_ij.
     """
 
     def __init__(self, cutoff: int | None) -> None:
@@ -217,11 +216,11 @@ class _Words:
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
                 # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. The letter ``tree``
-                # comes from x. The letters to its left come from u^m, and the letters to its right come from
-                # u^n. A power of u gives no letters if the exponent is 0, and at least one letter otherwise.
+                # comes from x. The letters before ``tree`` come from u^m, and the letters after ``tree`` come
+                # from u^n. The power u^0 gives no letters. Other powers give at least one letter.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # The rightmost factor of u^n x u^m acts first, so the letters of u^m come first in a
-                    # word. The class DexpinvSeries has the same convention.
+                    # In the product u^n x u^m, the factor u^m acts first. The letters of a word appear in
+                    # the order in which they act, so the letters of u^m come first.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))
@@ -233,7 +232,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # With ``order`` stages, different trees with ``order`` vertices have different elementary weights.
+        # With ``order`` stages, the trees with ``order`` vertices have different elementary weights.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 
