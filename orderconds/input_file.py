@@ -1,7 +1,6 @@
-"""Reading of files that a user names. Files above a maximal size are refused.
+"""Reading of files that a user names. Large files, pipes and devices are refused.
 
-Pipes and devices are refused, too. A program that reads from a pipe or device could wait for ever or fill the
-memory.
+Reading from a pipe or device could take for ever or fill the memory.
 """
 
 from __future__ import annotations
@@ -14,12 +13,12 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Maximal size in bytes of a file that a person writes, such as a tableau, a list of modules, or a scene (the
-description of a problem)."""
+"""Maximal size in bytes of a file that a person writes. Examples are a tableau, a list of modules, and the
+description of a problem."""
 
 MAX_WRITTEN_BYTES = 100_000_000
-"""Maximal size in bytes of a file that this program has written, such as an emitted module, a manifest, or a
-checkpoint."""
+"""Maximal size in bytes of a file that a program of this project has written. Examples are
+an emitted module, a manifest, and a checkpoint."""
 
 
 def read_bytes(
@@ -53,8 +52,8 @@ def read_text(
     limit: int = MAX_BYTES,
     error: type[InputError] = InputError,
 ) -> str:
-    """Return the text of a regular file in UTF-8. Raises ``error`` in the same cases as :func:`read_bytes`,
-    and also if the content is not UTF-8.
+    """Return the text of a regular file in UTF-8. Raises ``error`` if the content is not UTF-8, or if
+    :func:`read_bytes` raises ``error``.
 
     >>> read_text(__file__).partition(".")[0]
     '\"\"\"Reading of files that a user names'
@@ -75,8 +74,8 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     """
     # The type is tested before the file is opened, because opening a device may have side effects.
     _require_regular(os.stat(path, follow_symlinks=not own), own)
-    # After the test, another process may replace the file by a pipe. With O_NONBLOCK, opening a pipe
-    # does not block.
+    # Another process may replace the file by a pipe after the test of the type. With O_NONBLOCK, opening
+    # a pipe does not block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

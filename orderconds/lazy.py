@@ -1,5 +1,5 @@
-"""Packages with fast import. The modules of a package are imported when their names are first used (PEP
-562)."""
+"""Packages with fast import. A module of such a package is imported when an object from the module is first
+used (PEP 562)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import ModuleType
 
 
 class _LazyPackage(ModuleType):
-    """A package that imports each of its modules when a name from the module is first used."""
+    """A package that imports a module when an exported object from this module is first used."""
 
     def __getattr__(self, name: str) -> object:
         homes = self.__dict__["_homes"]
@@ -29,10 +29,11 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Make the modules of a package lazy: each module is imported when a name from the module is first used.
+    """Delay the import of the modules of a package. A module is imported when one of its objects is
+    first used.
 
-    ``names`` maps each module to the names of the objects that the package exports from the module. If a
-    module and an exported object have the same name, the name denotes the object.
+    ``names`` maps each module to the names of its exported objects. If a module and an exported object have
+    the same name, the name denotes the object.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -45,8 +46,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # If a module and an exported object have the same name, an earlier import may have stored the module
-        # under this name. The module is removed, because the name must denote the object.
+        # An earlier import may have stored a module as an attribute with the name of an exported object. The
+        # attribute is deleted, because the name must denote the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

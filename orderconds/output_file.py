@@ -19,7 +19,8 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 
 
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
-    """Write files under temporary names. When all files are on the disk, rename them in the given order.
+    """Write each content to the file with the given path. The files have temporary names until all files are
+    on the disk. Then the files are renamed in the given order.
 
     If ``private`` is true, only the user can read the files. If ``private`` is false and a file already
     exists, the new file has the permissions of the old file. If a path is a symbolic link, the new file

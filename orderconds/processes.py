@@ -1,6 +1,6 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results must not contain numbers of python-flint, because such numbers cannot be pickled.
+Jobs and results are pickled. Numbers of the library python-flint cannot be pickled.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the maximal number of worker processes. The default is the number of processors. If there
-    is only one job, or if ``processes`` is 1, no worker is started, and the calling process runs the jobs. A
-    worker that calls this function also runs the jobs itself.
+    ``processes`` is the maximal number of worker processes. The default is the number of processors. In three
+    cases, the calling process runs the jobs itself and starts no workers: there is only one job,
+    ``processes`` is 1, or the calling process is a worker.
 
     If a job raises an error, this function raises the error, too. Raises InputError if a worker was killed.
 
@@ -108,8 +108,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
     """Run the jobs that arrive at the connection, and send the results back. Return when an empty tuple
     arrives.
 
-    This is the main function of a worker process. The worker ignores Ctrl-C, because the parent process
-    handles it.
+    This is the main function of a worker process. The worker ignores Ctrl-C. After Ctrl-C, the parent process
+    terminates its workers.
     """
     import threading
 
@@ -130,10 +130,10 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return ``error`` with the traceback of this process as a note.
+    """Return an error that can be sent to the parent process. A note contains the traceback of this process.
 
-    If ``error`` cannot be pickled, it cannot be sent to the parent process. Then a RuntimeError is returned
-    instead. The text of the RuntimeError contains the type and the message of ``error``.
+    If ``error`` can be pickled, the result is ``error``. Otherwise the result is a RuntimeError with the type
+    and the message of ``error``.
     """
     import pickle
     import traceback

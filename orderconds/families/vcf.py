@@ -9,8 +9,8 @@ coefficients of a method are alpha_iJj and beta_Jj. They define the method by th
 - The weight of stage i is ``b_i = sum_J beta_Ji``.
 - The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 
-The methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of Bogfjellmo and
-Marthinsen suggests. The family contains methods of order 3 with positive weights b_i.
+The methods generalise the variational Crouch-Grossman methods (VCG). Section 3.5 of Bogfjellmo and Marthinsen
+suggests this generalisation. The family contains methods of order 3 with positive weights b_i.
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    The conditions are evaluated for random methods in order to find independent conditions. ``update`` is the
-    number of exponentials in the update of the random methods, and ``stage`` is the number in each stage. By
-    default, both numbers grow with the order. In this case, there is one independent condition for each
-    elementary Hamiltonian.
+    The conditions are evaluated for random methods in order to find independent conditions. In the random
+    methods, the update contains ``update`` exponentials, and each stage contains ``stage`` exponentials. The
+    default values grow with the order. With the default values, each elementary Hamiltonian gives one
+    independent condition.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -96,9 +96,9 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state an order in this family, else None.
+        """Return this family for a commutator-free method without zero weights, else None.
 
-        The file should state an order if the method is commutator-free and has no zero weights.
+        The file of such a method should state the order in this family.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalCrouchGrossman(ActionFamily):
-    """The family ``vcg``: variational Crouch-Grossman methods, given by tableaux (A, b) with non-zero
-    weights.
+    """The family ``vcg`` of variational Crouch-Grossman methods. A tableau (A, b) without zero weights
+    defines a method.
 
     >>> [len(VariationalCrouchGrossman().conditions(n)) for n in (1, 2, 3)]
     [1, 1, 6]
@@ -50,7 +50,7 @@ class VariationalCrouchGrossman(ActionFamily):
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
         "cg": "if H is linear in p, the positions q are computed by the CG method for a vector field on G",
-        "sprk": "a vector space is a Lie group under addition",
+        "sprk": "a vector space is a Lie group, on which a VCG method is an SPRK method",
         "vcf": "VCG methods are VCF methods in which each exponential contains the velocity of one stage",
     }
     abelian = "sprk"
@@ -67,7 +67,7 @@ class VariationalCrouchGrossman(ActionFamily):
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of a method with random coefficients in ``ring``.
 
-        The matrix A is full. The method has enough stages to distinguish the conditions up to ``order``.
+        The matrix A is full. The number of stages grows with ``order``.
         """
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]

@@ -1,5 +1,5 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``. Here
-dexpinv is the inverse of the differential of exp, a power series in ad.
+"""Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk(r)``. The series dexpinv is the inverse of the
+differential of exp. The methods truncate this series after the power r of ad.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Let p be the order of the
 symplectic partitioned Runge-Kutta method with the same tableau. Let R = r + 1 for even r >= 2, and R = r for
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaas(DexpinvCut, ActionFamily):
-    """The family ``vrkmk(r)``: variational Runge-Kutta-Munthe-Kaas methods, given by tableaux (A, b) with
-    non-zero weights.
+    """The family ``vrkmk(r)`` of variational Runge-Kutta-Munthe-Kaas methods. A tableau (A, b) without zero
+    weights defines a method.
 
     >>> [len(VariationalMuntheKaas(cutoff=2).conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 3, 8]
@@ -42,10 +42,12 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
 
     name = "vrkmk"
     description = (
-        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: vrkmk(r)."
+        "Variational Runge-Kutta-Munthe-Kaas methods: vrkmk(r) truncates dexpinv after the power r of ad."
     )
     formats = ("rk",)
-    implies: ClassVar[Mapping[str, str]] = {"sprk": "a vector space is a Lie group under addition"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "sprk": "a vector space is a Lie group, on which a VRKMK method is an SPRK method"
+    }
     abelian: ClassVar[str | None] = "sprk"
     unknowns: ClassVar[str | None] = "rk"
 
@@ -56,17 +58,15 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the coefficient of an action tree. The
-        letters of such a word are smaller action trees."""
+        """Return the length of the longest word in the formula for the coefficient of an action tree."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return one condition of the given order.
+        """Return a condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
 
-        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the
-        returned condition. The truncation changes no condition of an order below R + 3. Return None if
-        dexpinv is not truncated, or if ``order`` < 3.
+        Let R be the number in the module docstring. If ``order`` is R + 3, no method with truncated dexpinv
+        satisfies the returned condition. The truncation changes no condition of an order below R + 3.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -1,8 +1,8 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk_pade(r)``, in which the inverse of a truncated series
-of dexp replaces dexpinv.
+"""Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk_pade(r)``. The methods truncate the series of dexp and
+invert the result.
 
-Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp without
-the powers of ad above r. The exponent of stage i is X_i = h sum_j a_ij v_j, where v_j solves the equation
+Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp up to the
+power r of ad. The exponent of stage i is X_i = h sum_j a_ij v_j. Here v_j is the solution of the equation
 dexp^(r)(X_j) v_j = xi_j. Section 3.4.1 of Marthinsen's thesis describes this approach. Each action tree gives
 one condition. The left-hand side of the condition is the coefficient of the tree in the action series of the
 method.
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family ``vrkmk_pade(r)``, whose methods are given by tableaux (A, b) with non-zero weights. The
-    option ``cutoff`` is the power r of ad after which the series of dexp is truncated.
+    """The family ``vrkmk_pade(r)``. A tableau (A, b) without zero weights defines a method. The option
+    ``cutoff`` is the number r: the series of dexp is truncated after the power r of ad.
 
     If ``cutoff`` is None, dexp is not truncated, and the methods are those of the family ``vrkmk``.
 
@@ -48,7 +48,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     name = "vrkmk_pade"
     description = (
         "Variational Runge-Kutta-Munthe-Kaas methods: vrkmk_pade(r) truncates the series of dexp "
-        "after the power r and inverts the result."
+        "after the power r of ad and inverts the result."
     )
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
@@ -74,18 +74,17 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file need not state the order in this family."""
+        """Return None. No tableau file has to state the order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple that contains only this family."""
+        """Return this family as the only variant."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the order in the family ``rk``, but at most 2."""
+        """Return a lower bound of the order: the smaller of 2 and the order in the family ``rk``."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None. The project uses no theorem about conditions that the truncation of dexp leaves
-        unchanged."""
+        """Return None. This family does not describe the conditions that the truncation leaves unchanged."""
         return None

@@ -58,14 +58,13 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return a method whose coefficients are random elements of ``ring``. An element of ``ring`` consists
-        of several numbers, so the result represents several random methods. Each method has enough
-        coefficients to distinguish the conditions up to ``order``."""
+        """Return a method whose coefficients are random elements of ``ring``. Each element contains one
+        number for each of several random methods. Each method has enough coefficients to distinguish the
+        conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words of weight ``order``. The conditions of these words are independent.
-        Together with the conditions of lower weight, they imply the conditions of all words of weight
-        ``order``."""
+        """Return the Lyndon words of weight ``order``. The conditions of these words are independent. The
+        conditions of Lyndon words imply the conditions of all words."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
@@ -74,7 +73,7 @@ class WordFamily(Family):
         return letter
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which both sides of the condition of a word are multiplied."""
+        """Return the integer by which both sides of the condition of a word are multiplied."""
         return 1
 
     def text(self, word: Word) -> str:
@@ -91,10 +90,10 @@ class WordFamily(Family):
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all words of exactly the given order.
+        """Return the conditions of all words of weight ``order``.
 
-        The left-hand side of a dependent condition is a polynomial in left-hand sides of independent
-        conditions. The attribute ``relation`` of the condition contains this polynomial.
+        In a dependent condition, the left-hand side is a polynomial. The variables are left-hand sides of
+        independent conditions. The attribute ``relation`` contains this polynomial.
         """
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 

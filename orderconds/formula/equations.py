@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a left-hand side in characters. A left-hand side of this width, a tree, a right-hand
-side and an equation number fill a column of a two-column article."""
+"""The largest width of a line of a left-hand side, in characters. In a column of a two-column article, the
+tree, the right-hand side and the equation number need the remaining space."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -62,7 +62,8 @@ def numbered(equations: Sequence[Equation]) -> str:
 
 def broken(latex: str, line: int = LINE) -> list[str]:
     r"""Break a formula into lines of about ``line`` characters. Each new line begins with a plus or minus
-    sign. A sign inside brackets is used only if the lines would otherwise be too long.
+    sign. Signs outside brackets are preferred. If the lines are still too long, the formula is also broken
+    inside brackets.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -84,8 +85,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. Signs inside braces are ignored. Signs inside more
-    than ``within`` pairs of brackets are ignored, too."""
+    """Split a LaTeX formula before plus and minus signs. A sign is ignored inside braces. A sign is also
+    ignored inside more than ``within`` nested pairs of brackets."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")
@@ -97,8 +98,8 @@ def _terms(latex: str, within: int) -> list[str]:
 
 
 def _width(latex: str) -> float:
-    """Return an estimate of the printed width of a formula, in characters. Fractions, subscripts and
-    superscripts are narrower in print than their LaTeX code suggests."""
+    """Return an estimate of the printed width of a formula, in characters. A character in a subscript or
+    superscript has the width 0.6. A fraction is as wide as its longer part."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

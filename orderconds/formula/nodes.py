@@ -108,8 +108,7 @@ def product(*factors: Formula) -> Formula:
     """Return the product of formulas. Nested products are flattened, numbers are moved to the front, and
     equal factors are combined into powers.
 
-    Factors that differ only in the names of bound indices count as equal. If a factor is zero, the product is
-    zero.
+    The comparison of factors ignores the names of bound indices. If a factor is zero, the product is zero.
 
     >>> c = coefficient("c", "i")
     >>> product(coefficient("b", "i"), c, c).text()
@@ -127,8 +126,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # The key of a factor that contains sums is slow to compute. If only one factor contains sums, no other
-    # factor is equal to it. Then the key None is sufficient.
+    # Every factor needs a key. The key of a factor that contains sums is slow to compute. If only one factor
+    # contains sums, no other factor is equal to this factor. In this case, the key of this factor is None.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -144,7 +143,7 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
     """Return the sum of rational multiples of formulas. Nested sums are flattened, and equal terms are
     collected.
 
-    Terms that differ only in the names of bound indices count as equal.
+    The comparison of terms ignores the names of bound indices.
 
     >>> c = coefficient("c", "i")
     >>> total((1, c), (Fraction(-3, 2), c), (1, one())).text()
@@ -169,8 +168,8 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
     """Return the sum of ``body`` over ``indices`` that satisfy ``relations``.
 
-    A rational factor of ``body`` is written before the sum. If factors of ``body`` are sums, all sums are
-    combined into one.
+    A rational factor of ``body`` is written before the sum. If factors of ``body`` are sums, the result is
+    one sum over all indices.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -195,8 +194,8 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return an index name that no existing formula contains. The name begins with ``kind``: a lower-case
-    letter for stages, an upper-case letter for exponentials.
+    """Return an index name that no existing formula contains. The letter ``kind`` is the first letter of the
+    name. Lower-case letters denote stages, and upper-case letters denote exponentials.
 
     >>> fresh() != fresh()
     True
@@ -208,8 +207,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
     bound indices get names that no other formula contains.
 
-    Two formulas that this function returns have different bound indices. Therefore their product can be
-    written under one sum. :func:`named` replaces the unique names by short names.
+    Therefore the results of two calls have no bound index in common, and their product can become one sum.
+    :func:`named` replaces the unique names by short names.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -235,8 +234,8 @@ def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     """Return the formula with readable names of bound indices: i, j, k, ... for stages, and I, J, K, ... for
     exponentials.
 
-    ``names`` maps free indices to their new names. Sums that differ only in the names of bound indices become
-    identical.
+    ``names`` maps free indices to their new names. If two sums differ only in the names of bound indices, the
+    results for both sums are identical.
 
     >>> i = fresh()
     >>> named(index_sum((i,), (), coefficient("b", i))).text()
@@ -319,10 +318,10 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key of a formula. Two formulas have equal keys if and only if they differ only in the names of
-    bound indices.
+    """Return a key that identifies a formula. The key does not depend on the names of bound indices.
 
-    In the key, bound indices are numbers, counted from the outermost sum inwards.
+    In the key, a number replaces each bound index. ``depths`` maps the indices of outer sums to their
+    numbers.
     """
     match formula:
         case Coefficient(name, indices):

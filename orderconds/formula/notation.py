@@ -19,8 +19,8 @@ class Notation(Struct, frozen=True):
     """The signs and brackets of one notation, ASCII or LaTeX.
 
     ``names`` maps names of coefficients to symbols, such as ``ahat`` to ``\\hat{a}``. ``total`` is the
-    summation sign. ``signs`` maps ``<`` and ``<=`` to these signs in the notation. ``reversed_signs`` maps
-    ``<`` to the sign for ``>``, and ``<=`` to the sign for ``>=``.
+    summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols in the notation. ``reversed_signs`` maps
+    ``<`` to the symbol for ``>``, and ``<=`` to the symbol for ``>=``.
     """
 
     names: Mapping[str, str]
@@ -73,8 +73,8 @@ def subscript(written: str, notation: Notation) -> str:
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
     """Return the text below a summation sign. ``indices`` are the summation indices.
 
-    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. A chain does not begin with a free
-    index: if i is free, the chain is written as ``k>j>i``.
+    Relations are joined to chains: ``i<j`` and ``j<k`` give ``i<j<k``. Each chain begins with a summation
+    index. If i is free and the other indices are summation indices, the chain is ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

@@ -49,12 +49,13 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the lower and upper limits of each summation index. The relation ``i < j`` gives one limit: if i
-    is a summation index, the upper limit of i is j - 1; if i is free, the lower limit of j is i + 1."""
+    """Return the lower and upper limits of each summation index. Each relation gives one limit. For
+    example, let the relation be ``i < j``. If i is a summation index, the upper limit of i is j - 1. If i is
+    free, the lower limit of j is i + 1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In the arguments of sympy.Sum, the limits of an index may depend only on indices further right. The
-        # next index must therefore occur in no limit of the remaining indices.
+        # The result is an argument list of sympy.Sum. In this list, the limits of an index may contain only
+        # later indices. Therefore the chosen index must not occur in the limits of the remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
@@ -75,7 +76,7 @@ def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> s
     """Expand all sums in ``expression``, which is a result of :func:`export`.
 
     The upper limits ``s`` and ``m`` of the sums are replaced by ``stages`` and ``exponentials``. SymPy's
-    ``doit`` does not expand sums with ``i < j``.
+    method ``doit`` is not used, because it does not expand sums with ``i < j``.
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

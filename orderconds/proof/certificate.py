@@ -43,8 +43,8 @@ class Certificate:
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: a map from names of numbers to error bounds. The table ``[proof.printed]`` quotes these
-      numbers from the publication of the method. The error is the distance from the solution.
+    - ``printed``: error bounds of published decimals. The table ``[proof.printed]`` contains the decimals.
+      The keys are the names of the decimals. The error is the distance from the exact number.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -78,8 +78,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
     decimals of ``tableau``.
 
-    The proof uses ball arithmetic with at least ``bits`` bits. If the decimals have many digits, the
-    precision is higher. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
+    The proof uses ball arithmetic with at least ``bits`` bits. The precision grows with the number of digits
+    of the decimals. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
     reason.
 
     >>> from orderconds.tableau import find
@@ -92,8 +92,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
-    with equal content."""
+    """A key in the cache of proofs. Keys are equal if they contain the same object, or if they contain equal
+    tableaux from files with equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -110,8 +110,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file from which the tableau was read. The value is None if the tableau was not
-        read from a file, or if its [proof] table was replaced."""
+        """The content of the tableau file, or None if there is no file. The content is also None if the
+        [proof] table of the tableau was replaced after reading."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -125,7 +125,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '
-            'remove some names from this list, or, if the decimals are exact, remove "~"'
+            'remove some names from "pins", or remove "~" from decimals that are exact'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -150,7 +150,7 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f'add {unknowns - conditions} of the unknowns to the list "pins" of exact numbers in [proof]'
+        f'add {unknowns - conditions} of the unknowns to the list "pins" in [proof] (pins are exact numbers)'
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )
@@ -180,8 +180,8 @@ def _certificate(
 
 
 def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
-    """Yield each decimal that is proved to differ from the solution by more than half a unit of its last
-    digit."""
+    """Yield each decimal that is proved to be rounded incorrectly. The error of such a decimal is larger than
+    half a unit of the last digit."""
     for unknown, x in zip(proof.unknowns, solution, strict=True):
         given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
         low, high = endpoints(x)
