@@ -1,5 +1,5 @@
-"""Linear dependences between the columns of a matrix modulo a prime, computed from the reduced echelon
-form."""
+"""Linear dependences between the columns of a matrix modulo a prime. They are read from the reduced echelon
+form of the matrix."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the pivot columns. A pivot column is not a linear combination of earlier columns.
     The number of pivot columns is the rank.
 
-    Each column contains the values of one function at random samples, one sample in each row. The pivot
-    columns always belong to linearly independent functions. With a probability of about (number of columns) /
-    prime, the rank is too small.
+    Each column contains the values of one function at random samples, one sample in each row. If columns
+    are linearly independent, their functions are linearly independent, too. With a probability of about
+    (number of columns) / prime, the rank is too small.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)
@@ -29,10 +29,11 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
 
 
 def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
-    """Express each column that is not a pivot column as a combination of pivot columns.
+    """Return the linear dependences of the columns on the pivot columns.
 
-    A pivot column is not a linear combination of earlier columns. The result has the form {column: {pivot
-    column: coefficient}}, with all coefficients modulo the prime.
+    A pivot column is not a linear combination of the columns to its left. The result contains every column
+    that is not a pivot column, in the form {column: {pivot column: coefficient}}. All coefficients are
+    residues modulo the prime.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

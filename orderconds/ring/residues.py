@@ -1,8 +1,7 @@
-"""Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute how many
-conditions are independent.
+"""Vectors of residues modulo a prime. These vectors are used to count independent order conditions.
 
-A vector contains the values of one quantity in many random tableaux, one entry (sample) for each tableau. The
-quantity is, for example, a coefficient of the tableau or the left-hand side of an order condition.
+A vector contains the values of one quantity in many random tableaux. The quantity is, for example, a
+coefficient of the tableau or the left-hand side of an order condition. The value in one tableau is a sample.
 The prime is below 2^31, so that products fit in 64 bits.
 """
 
@@ -44,7 +43,7 @@ class Residues:
         return hash((self.prime, self.samples))
 
     def rational(self, p: int, q: int = 1) -> Residue:
-        """Return the element that is p/q in every sample. Raises ZeroDivisionError if the prime divides q."""
+        """Return the vector with p/q in every entry. Raises ZeroDivisionError if the prime divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
             raise ZeroDivisionError(f"the denominator is divisible by the prime {self.prime}")
@@ -52,7 +51,7 @@ class Residues:
         return Residue(self, np.full(self.samples, value, dtype=np.int64))
 
     def element(self, values: NDArray[np.int64]) -> Residue:
-        """Return the element with the given values, shape (samples,), reduced modulo the prime."""
+        """Return the vector of the residues of ``values``, an array of shape (samples,)."""
         return Residue(self, np.asarray(values, dtype=np.int64) % self.prime)
 
     def random(self, generator: np.random.Generator) -> Residue:
@@ -80,7 +79,7 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    # With this attribute, Python calls __radd__, __rmul__ and so on if the left operand is a NumPy scalar.
+    # If the left operand is a NumPy scalar, this attribute lets Python call __radd__, __rmul__ and so on.
     __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:

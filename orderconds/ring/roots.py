@@ -32,7 +32,7 @@ def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -
     """Return a monic irreducible factor of ``minpoly``, and the index of a real root of the factor.
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
+    interval does not contain exactly one root. The real roots of the factor are numbered from 0, in
     ascending order. The coefficients of a polynomial are listed by ascending powers.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
@@ -52,8 +52,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
     """Return a monic irreducible factor of a polynomial, and the index of a real root of the factor.
 
     The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
-    ascending order. The ``coefficients`` of the polynomial are in ascending order.
+    interval does not contain exactly one root. The real roots of the factor are numbered from 0, in
+    ascending order. The ``coefficients`` of the polynomial are listed by ascending powers.
     """
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:

@@ -1,9 +1,8 @@
 """Vectors of residues modulo a prime, without NumPy, because the import of NumPy is slow.
 
-A vector of n samples is represented by a polynomial of degree below n over Z/p, where p is the prime. Sample
-k is the value of the polynomial at z = k. The map from the samples to the coefficients of the polynomial is
-linear and invertible. Hence several vectors of samples are linearly independent exactly if the coefficient
-vectors of their polynomials are linearly independent.
+Let p be the prime. The residues in a vector are called samples. A polynomial of degree below n over Z/p
+represents a vector of n samples: sample k is its value at the point k. The map from the samples to the
+coefficients of the polynomial is linear and invertible. Therefore it preserves linear independence.
 """
 
 from __future__ import annotations
@@ -20,8 +19,9 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of vectors of ``count`` residues (samples) modulo ``prime``. The prime must be larger than
-    ``count``.
+    """The ring of vectors of ``count`` residues (samples) modulo ``prime``. The samples are values of a
+    polynomial at the points 0, ..., ``count`` - 1. These points are distinct modulo the prime, because the
+    prime must be larger than ``count``.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])
@@ -38,7 +38,7 @@ class Samples:
         self.zero, self.one = self.rational(0), self.rational(1)
 
     def rational(self, p: int, q: int = 1) -> Sample:
-        """Return the element that is p/q in every sample. Raises ValueError if the prime divides q."""
+        """Return the vector with p/q in every entry. Raises ValueError if the prime divides q."""
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
@@ -64,8 +64,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x, in ascending order. Elements
-        are linearly independent exactly if the vectors of their coefficients are linearly independent."""
+        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. The map
+        from x to the coefficients preserves linear independence."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -146,11 +146,11 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return two results for a matrix modulo ``prime``. The first contains the indices of the pivot columns.
-    A pivot column is not a combination of earlier columns.
+    """Return the pivot columns of a matrix modulo ``prime``, and the linear dependences of the columns.
 
-    The second result expresses each other column as a combination of pivot columns. It has the form {column:
-    {pivot column: coefficient}}, with all coefficients modulo ``prime``.
+    A pivot column is not a linear combination of the columns to its left. The first result contains the
+    indices of the pivot columns. The second result contains every column that is not a pivot column, in the
+    form {column: {pivot column: coefficient}}. All coefficients are residues modulo ``prime``.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

@@ -3,11 +3,13 @@ a method.
 
 A root b of a polynomial p over K = Q(a) is adjoined in three steps:
 
-1. In the algebra K[x]/(p), find an element c = b + m a or c = a b whose powers span the algebra.
+1. In the algebra K[x]/(p), find an element c whose powers span the algebra: c = b + m a or c = a b, with an
+   integer m.
 2. Factor the characteristic polynomial of c.
-3. Find the irreducible factor that vanishes at the real number c, by means of balls.
+3. Choose the irreducible factor that has the real value of c as a root. Balls around this value exclude the
+   other factors.
 
-The degree of the irreducible factor is the degree of K(b) over Q. If K has the same degree over Q, then K
+The degree of the chosen factor is the degree of K(b) over Q. If K has the same degree over Q, then K
 contains b, and no new field is formed. For example, if K contains sqrt(2), then sqrt(8) is represented as
 2 sqrt(2).
 """
@@ -28,10 +30,10 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree over Q of a field that is constructed. If a higher degree is necessary,
-:class:`DegreeError` is raised."""
+"""The largest degree over Q of the field of a :class:`Tower`. A root that needs a larger degree raises
+:class:`DegreeError`."""
 MAX_DIMENSION = 64
-"""The largest dimension of an algebra that is constructed to adjoin a root."""
+"""The largest dimension over Q of the algebra K[x]/(p) that is used to adjoin a root to the field K."""
 
 
 class DegreeError(ArithmeticError):
@@ -40,8 +42,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A number field that is extended when a root is adjoined. Elements of the field before the extension
-    can be combined with elements of the extended field.
+    """A number field that grows when a root is adjoined. Elements of the smaller field can be combined with
+    elements of the larger field.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -58,18 +60,18 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return the exact rational number ``value``.
+        """Return the rational number ``value``. It must be exact, so ``unit`` must be 0.
 
-        If ``unit`` is positive, ``value`` is a rounded decimal with an error of at most ``unit``. Raises
-        TypeError in this case, because only a ball can represent a rounded decimal.
+        A positive ``unit`` is the error bound of a rounded decimal. Then TypeError is raised, because only a
+        ball can represent a rounded decimal.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field, and a function that converts the elements of earlier fields to elements
-        of this field."""
+        """Return the current field as a ring, and a function that converts elements to this ring. If the
+        degree of the field is 1, the ring is QQ."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -80,10 +82,10 @@ class Tower:
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
     def root(self, x: Algebraic, index: int) -> Algebraic:
-        """Return the real ``index``-th root of x. The root is adjoined if necessary.
+        """Return the real ``index``-th root of x. If the field does not contain the root, it is adjoined.
 
-        Raises ValueError for an even root of a negative number, and :class:`DegreeError` if the degree of the
-        field would become too large.
+        Raises ValueError if x is negative and ``index`` is even. Raises :class:`DegreeError` if the field
+        would become too large.
         """
         sign = x.field.sign(x)
         if sign == 0 or index == 1:
@@ -97,8 +99,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational number times a root of a small integer. For example, the square
-        root of 8 is represented as 2 sqrt(2)."""
+        """Return x^(1/index) as a rational number times a root of an integer. The integer is kept small. For
+        example, the square root of 8 becomes 2 sqrt(2)."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -134,8 +136,8 @@ class Tower:
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
         """Return the only real root of ``minpoly`` (ascending coefficients) in [near - unit, near + unit].
 
-        Raises ValueError if the interval does not contain exactly one root, and :class:`DegreeError` if the
-        degree of the field would become too large.
+        Raises ValueError if the interval does not contain exactly one root. Raises :class:`DegreeError` if
+        the field would become too large.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -156,7 +158,9 @@ class Tower:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeError(f"an algebra of dimension {dimension} is too large to adjoin a root")
+            raise DegreeError(
+                f"cannot adjoin a root: the algebra has dimension {dimension}, which is too large"
+            )
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -170,7 +174,9 @@ class Tower:
         if degree == field.degree:
             return Algebraic(field, _in_powers_of(a, b, modulus))
         if degree > MAX_DEGREE:
-            raise DegreeError(f"the coefficients generate a number field of degree {degree}")
+            raise DegreeError(
+                f"the coefficients generate a number field of degree {degree}, which is too large"
+            )
         below = tuple(substituted(image, a, modulus) for image in field.images)
         added = generator(degree // field.degree)
         self.field = NumberField(modulus, primitive, (*field.generators, added), (*below, b), field, a)
@@ -179,7 +185,7 @@ class Tower:
 
 class _Relation:
     """A description of the algebra K[x]/(p) over Q, where K = Q(a) is a number field and p is a polynomial
-    over K. The element c generates the algebra, so that all elements are polynomials in c.
+    over K. Every element of the algebra is a polynomial in one element c, with rational coefficients.
 
     - ``characteristic``: the characteristic polynomial of c.
     - ``a``: the element a as a polynomial in c.
@@ -193,11 +199,12 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m that defines c, and a
-    :class:`_Relation` that describes the algebra by c. Here K = Q(a) is ``field``, and p is the polynomial
-    x^k - sum_j powers[j] x^j with k = len(powers).
+    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m and the
+    :class:`_Relation` of c. Here K = Q(a) is ``field``, and p is the polynomial x^k - sum_j powers[j] x^j
+    with k = len(powers).
 
-    Let b be the residue class of x. If m is an integer, then c = b + m a. If m is None, then c = a b.
+    The number m defines c. Let b be the residue class of x. If m is an integer, then c = b + m a. If m is
+    None, then c = a b.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -226,11 +233,10 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of ``vector`` and c, two elements of the algebra K[x]/(p). The function
-    :func:`_primitive` defines K = Q(a) and p.
+    """Return the product of ``vector`` and c in the algebra K[x]/(p). See :func:`_primitive` for K, p and b,
+    and for the definition of c by the number m = ``multiplier``.
 
-    Let b be the residue class of x, and let m be ``multiplier``. If m is an integer, then c = b + m a. If m
-    is None, then c = a b. An element of the algebra is a list of the coefficients of 1, b, b^2, and so on.
+    An element of the algebra is the list of its coefficients of 1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -245,7 +251,7 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
     """Return a matrix over Q with one column for each list in ``columns``. A list contains elements of a
-    number field of the given ``degree``. Its column contains the coordinates of all these elements."""
+    number field. The column joins the coordinates of these elements, ``degree`` numbers for each element."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -253,8 +259,8 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor of ``characteristic`` that vanishes at a given number. The function
-    ``enclosure`` returns balls around this number."""
+    """Return the monic irreducible factor of ``characteristic`` with a given real root. The function
+    ``enclosure`` returns balls around this root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:
@@ -277,8 +283,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return a factorization of a positive integer n, as pairs (factor, exponent). If n has at most 128 bits,
-    the factors are primes. For larger n, the last factor may be composite."""
+    """Return a factorization of a positive integer n, as pairs (factor, exponent). If n has more than 128
+    bits, the last factor may be composite. All other factors are primes."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -1,9 +1,9 @@
 """A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
-An element is the index of an operation in the program, or a constant.
+An element is a constant or the result of an operation of the program.
 
-An algorithm that runs over this ring records its operations as a program. The program can then be evaluated
-for all input values. Equal operations are recorded once. The sum and the product of two constants are
-computed immediately, and no operation is recorded. Products with 0 or 1 are also not recorded.
+An algorithm that runs over this ring records its operations as a program. The program can be evaluated later
+for any values of the inputs. Equal operations are recorded once. Sums, products and quotients of two
+constants are computed immediately and not recorded. Sums with 0 and products with 0 or 1 are not recorded.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""The kinds of operations: sum, product, quotient, n-th root, rational number, and input."""
+"""The kinds of operations. CONSTANT gives a rational number, and INPUT gives an input of the program."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,10 @@ class Operation:
 
 
 class Traces:
-    """A ring that records a program with ``width`` inputs. An element is a constant or the result of an
-    operation of the program. The list ``operations`` contains all recorded operations.
+    """A ring whose arithmetic is recorded as a program with ``width`` inputs. An element is a constant or the
+    result of an operation. The list ``operations`` contains all recorded operations.
 
-    In the example, the program has two inputs (kind 5), a sum (kind 0) and a product (kind 1).
+    In the example, the program has two inputs (kind INPUT = 5), a sum (ADD = 0) and a product (MULTIPLY = 1).
 
     >>> R = Traces(2)
     >>> x, y = R.inputs
@@ -68,7 +68,7 @@ class Traces:
         return Trace(self, place)
 
     def rational(self, p: int, q: int = 1) -> Trace:
-        """Return the constant p/q. It is recorded only if an operation uses it."""
+        """Return the constant p/q. It is recorded together with the first operation that uses it."""
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
@@ -85,7 +85,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return the same text as :meth:`text`, because the result of an operation has no numerical value."""
+        """Return the same text as :meth:`text`. A result of an operation has no known numerical value."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -119,8 +119,8 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation that computes this element. If the element is a constant, record
-        it as an operation, and return the index of this operation."""
+        """Return the index of the operation that gives this element. A constant is recorded as an operation
+        first."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
@@ -173,8 +173,8 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the values of all ``operations`` in ``ring``. The ring must have division. If the operations
-    contain a root, the ring must also have roots.
+    """Return the results of all ``operations``, computed in ``ring`` for the given ``inputs``. The ring must
+    have division. If an operation is a root, the ring must also have roots.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

@@ -1,4 +1,4 @@
-"""Series of methods and of exact flows, truncated by order, over any ring.
+"""Series of methods and of exact flows over any ring. Each series is truncated at an order.
 
 - ``b_series``: series over rooted trees, with or without colours.
 - ``lie_butcher``: series over ordered forests, for products of exponentials and for the exact flow.

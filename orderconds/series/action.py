@@ -1,21 +1,21 @@
 """The action series of a variational Lie group method: one coefficient for every action tree, in any ring.
 
-Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
-velocity and each stage momentum is a sum over trees (:mod:`orderconds.series.action_trees`). Velocities are
-sums over trees that are pairs t = (w, M). Momenta are sums over two kinds of trees, which are written
-H(u*v|M) and L(w). In these expressions, u, v and w are words of smaller trees, and M is a multiset of smaller
-trees. Stage i has the weight b_i. At stage i, the trees have the coefficients
+Let q0 be the initial position and mu1 the final momentum of a step. The velocity and the momentum of each
+stage are expanded about (q0, mu1). The expansions are sums over trees
+(:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
+the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
+Let b_i be the weight of stage i. The coefficients of the trees at stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
 
 Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element. In the words in square brackets, the letter x denotes a variation of
-the velocity of stage i.
+coefficient of a word in a group element. The letter x is a variation that is added to the velocity of stage
+i.
 
-The method has order p if ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow, for every
-tree t with at most p vertices.
+For every tree t with at most p vertices, a method of order p satisfies one condition: ``sum_i b_i tau_t(i)``
+is equal to the coefficient of t in the exact flow. If all these conditions hold, the method has order p.
 
 In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
 :mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
@@ -38,15 +38,15 @@ Exponential = tuple[tuple[int, Element], ...]
 """The exponent of one exponential, as pairs (stage, coefficient). Zero coefficients are omitted."""
 
 Row = tuple[Exponential, ...]
-"""The exponentials of one group element, in the order in which they act."""
+"""The exponentials of one group element. The first exponential acts first."""
 
 
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    The weights b_i must be invertible in ``ring``. Several functions of this class have an argument ``row``,
-    which selects a group element. An index of a stage selects the group element of this stage. The number of
-    stages selects the group element of the update.
+    The weights b_i must be invertible in ``ring``. The argument ``row`` of the methods selects a group
+    element. If ``row`` is the index of a stage, it selects the group element of this stage. If ``row`` is the
+    number of stages, it selects the group element of the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -71,9 +71,9 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
-        and v are ``before`` and ``after``. The letter x denotes a variation of the velocity of one stage, and
-        ``stage`` is the index of this stage."""
+        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
+        ``before``, the letter x and ``after``. The letter x is a variation that is added to the velocity of
+        stage ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return one number for each stage: the coefficient of a word of trees in the group element of the
@@ -81,8 +81,8 @@ class ActionSeries(ABC):
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return the coefficient tau_t(i) of the g-valued tree t in the velocity of stage i, for each stage
-        i. The argument ``tree`` is t."""
+        """Return one number for each stage i: the coefficient tau_t(i) of the g-valued tree t = ``tree`` in
+        the velocity of this stage."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -96,8 +96,8 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return the coefficient psi_p(i) of the g*-valued tree p in the momentum of stage i, for each stage
-        i. The argument ``tree`` is p."""
+        """Return one number for each stage i: the coefficient psi_p(i) of the g*-valued tree p = ``tree`` in
+        the momentum of this stage."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -124,8 +124,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return a matrix whose entry [j][i] is ``insertion(j, i, before, after)``, for all stages j and
-        i."""
+        """Return a matrix with one row and one column for each stage. Entry [j][i] is
+        ``insertion(j, i, before, after)``, see :meth:`insertion`."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -159,11 +159,12 @@ class ActionSeries(ABC):
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return a map from words of trees to their coefficients in the group element of the update. The map
-        contains all words with at most ``vertices`` vertices.
+        """Return the coefficients in the group element of the update, as a map {word: coefficient}. The map
+        contains all words of trees with at most ``vertices`` vertices.
 
-        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Let ``F(t)`` be
-        the right-invariant field of the tree t at (q0, mu1), divided by the order of the symmetry group of t.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. At (q0, mu1),
+        each tree t defines a right-invariant vector field on the group. Let ``F(t)`` be this field, divided
+        by the order of the symmetry group of t.
         For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ... t_k`` of
         ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``.
 
@@ -204,15 +205,15 @@ class CommutatorFreeSeries(ActionSeries):
 
         Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
         the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. The term of a
-        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k, divided by n! for each
-        exponential that occurs n times in the sequence.
+        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k. If an index occurs n times in
+        the sequence, the term is divided by n!.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
-        and v are ``before`` and ``after``. The letter x denotes a variation of the velocity of one stage, and
-        ``stage`` is the index of this stage."""
+        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
+        ``before``, the letter x and ``after``. The letter x is a variation that is added to the velocity of
+        stage ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -221,9 +222,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element that ``row`` selects. The words u
-        and v are ``before`` and ``after``. The letter x is added to the exponent of the exponential with
-        index ``place``, with the coefficient one. The other exponents do not contain x."""
+        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
+        ``before``, the letter x and ``after``. The letter x is added to the exponent of the exponential with
+        index ``place``. The other exponents do not contain x."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -252,8 +253,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in products of exponentials. Entry k is the coefficient in the
-        product of the first k exponentials of the group element that ``row`` selects."""
+        """Return a list of coefficients for the group element that ``row`` selects. Entry k is the
+        coefficient of ``word`` in the product of the first k exponentials."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -274,9 +275,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in products of exponentials. The argument ``row`` selects a
-        group element. Entry k of the result is the coefficient in the product of all exponentials of this
-        group element except the first k."""
+        """Return a list of coefficients for the group element that ``row`` selects. Entry k is the
+        coefficient of ``word`` in the product without the first k exponentials."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

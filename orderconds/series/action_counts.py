@@ -16,8 +16,8 @@ def tree_counts(order: int) -> tuple[int, ...]:
     - Lie(T): independent Lie polynomials in g-valued trees.
 
     The functions T, P and W solve the equations T = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The
-    returned numbers are the coefficients of Lie(T) - T P. For each number of vertices, the returned number is
-    an upper bound for the number of independent conditions.
+    returned numbers are the coefficients of Lie(T) - T P. The number of independent order conditions with n
+    vertices is at most the coefficient of x^n.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -42,10 +42,11 @@ def class_count(vertices: int) -> int:
     class if they differ only in the choice of the root.
 
     A vertex in a subtree of the form ``L(w)`` cannot be the root. The other vertices of the tree can be the
-    root. If there are k of them, they are connected by k - 1 edges. Let R be the number of rooted trees, and
-    let E be the number of these edges in all classes. Then the number of classes is R - E. If one of these
-    edges is removed, the tree becomes a force (:class:`~orderconds.series.action_trees.Force`) and a g-valued
-    tree. Therefore E is the number of pairs (force, g-valued tree) with ``vertices`` vertices in total.
+    root, and we call them possible roots. In a tree with k possible roots, k - 1 edges connect them. Let R be
+    the number of rooted trees, and let E be the number of these edges in all classes. Then the number of
+    classes is R - E. Without one such edge, the tree becomes two parts: a force
+    (:class:`~orderconds.series.action_trees.Force`) and a g-valued tree. Therefore E is the number of pairs
+    (force, g-valued tree) with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -70,9 +71,9 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        # Let p_d be the number of g*-valued trees with d vertices. Let e_n be the number of multisets of
-        # g*-valued trees with n vertices in total. For n >= 1, Euler's transform is
-        # n e_n = sum_{k=1}^n s_k e_{n-k}. Here s_k is the sum of d p_d over the divisors d of k.
+        # Let p_d be the number of g*-valued trees with d vertices. Let s_k be the sum of d p_d over the
+        # divisors d of k. Let e_n be the number of multisets of g*-valued trees with n vertices in total. By
+        # Euler's transform, n e_n = sum_{k=1}^n s_k e_{n-k} for n >= 1.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (

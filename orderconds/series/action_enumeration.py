@@ -3,10 +3,10 @@
 A g-valued tree denotes an element of the Lie algebra g. A g*-valued tree denotes an element of the dual g*.
 Each vertex of a tree represents a derivative of the Hamiltonian H.
 
-The cost of a tree measures how difficult its condition is to read. No subtree costs more than the whole tree.
-The trees are enumerated in several passes with increasing cost limits, because a check usually needs only the
-simplest trees. For example, there are 6331 g-valued trees with six vertices. For most methods, the conditions
-of a few hundred of these trees are sufficient to determine the order.
+The cost of a tree measures how difficult its order condition is to read. The cost of a subtree is at most the
+cost of the whole tree. The trees are enumerated in several passes with increasing limits on the cost. Later
+passes are rarely necessary: there are 6331 g-valued trees with six vertices, but for most methods the
+conditions of a few hundred of them determine the order.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""Trees are enumerated in several passes. Each number is the largest cost of the trees in one pass."""
+"""The limits on the cost of a tree, one for each pass of the enumeration."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -120,9 +120,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (cost, tree), sorted by cost, for the g-valued trees with ``vertices`` vertices that can
-    occur in a word of cost at most ``limit``. The cost in a pair is the contribution of the tree to the cost
-    of a word."""
+    """Return pairs (added cost, tree) for g-valued trees with ``vertices`` vertices, sorted by added cost.
+    The added cost is the amount that the tree adds to the cost of a word. It is at most ``limit``."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -163,9 +162,9 @@ def _chosen(
     ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its trees, and it is at
     most ``rest``.
 
-    Each tree has at most ``largest`` vertices. A tree with exactly ``largest`` vertices has at most the index
-    ``bound`` in the result of :func:`_momenta`. Because of these limits, each multiset is generated only
-    once.
+    The arguments ``largest`` and ``bound`` ensure that each multiset is generated once. Each tree has at most
+    ``largest`` vertices. If a tree has exactly ``largest`` vertices, its index in the result of
+    :func:`_momenta` is at most ``bound``.
     """
     if vertices == 0:
         yield 0, ()
