@@ -5,9 +5,8 @@ The plugin is active only if one of its flags is given. The flags ``--orderconds
 ``--orderconds-complete``, ``--orderconds-certified``, ``--orderconds-execute`` and ``--orderconds-tolerance``
 correspond to options of ``orderconds check``.
 
-Files without a tableau are skipped. A tableau that claims no order is skipped, too, but with
-``--orderconds-require-claims`` the test of this tableau fails. At the end, each skipped file is printed with
-the reason.
+Files without a tableau are skipped. At the end, each skipped file is printed with the reason. The
+test of a tableau that claims no order is skipped. With ``--orderconds-require-claims``, this test fails.
 
 A Python file that contains a tableau is parsed and not imported. The file is executed only with
 ``--orderconds-execute``.
@@ -25,8 +24,8 @@ import pytest
 FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
-    "--orderconds-complete": "like --orderconds; a tableau also fails if its order in a family is neither "
-    "claimed nor implied by its order in another family",
+    "--orderconds-complete": "like --orderconds; require a claim in every family to which the method "
+    "belongs; no claim is needed if the order in another family implies this order",
     "--orderconds-certified": "like --orderconds; a claimed order without a proof fails",
     "--orderconds-execute": "like --orderconds; a Python file is executed, and its arrays are read",
 }
@@ -54,7 +53,7 @@ def _is_on(config: pytest.Config) -> bool:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Return a collector for a tableau file, or None for other files and for skipped files."""
+    """Return a collector for a tableau file. Return None for every other file."""
     if not _is_on(parent.config):
         return None
     from orderconds.exchange.folder import SUFFIXES, reason_to_skip
@@ -94,13 +93,12 @@ def _asked(path: Path, config: pytest.Config) -> bool:
 
 
 def _is_test_module(path: Path, config: pytest.Config) -> bool:
-    """Return True if the settings of pytest (``python_files``) select a module of this name as a test
-    module."""
+    """Return True if the file is a test module according to the setting ``python_files`` of pytest."""
     return path.suffix == ".py" and any(fnmatch(path.name, x) for x in config.getini("python_files"))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """Print the names of the skipped files."""
+    """Print the name of each skipped file and the reason."""
     for path, reason in config.stash.get(SKIPPED, {}).items():
         terminalreporter.write_line(f"orderconds: skipped {path}: {reason}")
 
@@ -109,7 +107,7 @@ class NoTests(pytest.File):
     """A Python file that contains a tableau. Pytest does not import it and collects no tests from it."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return an empty sequence, because the file contains no tests."""
+        """Return no tests."""
         return ()
 
 
@@ -144,7 +142,7 @@ class TableauItem(pytest.Item):
             raise ClaimFails(report.summary())
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the text of a failure without a traceback."""
+        """Return the text of a failure. For a false claim or an invalid file, it contains no traceback."""
         from orderconds.errors import InputError
 
         if isinstance(excinfo.value, ClaimFails | InputError):
@@ -152,8 +150,8 @@ class TableauItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Return three values for the report of pytest: the path of the file, None for the line number, and
-        a title of the test."""
+        """Return three values for the report of pytest: the path of the file, the line number (None), and
+        the title of the test."""
         return self.path, None, f"orderconds: {self.path.name}"
 
 

@@ -4,8 +4,8 @@ satisfy the formulas of a tableau file.
 The left-hand side of each dependent condition is a polynomial in left-hand sides of independent conditions.
 The coefficients of this polynomial are computed modulo primes and then converted to fractions.
 
-Conditions that are independent over Q can be dependent modulo a prime. Therefore a polynomial can be wrong.
-:class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic.
+Conditions that are independent over Q can be dependent modulo a prime. In this case, the polynomial is wrong.
+Therefore :class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -28,26 +28,26 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The number of random methods of the sub-family in the first attempt. If this number is too small, another
-attempt uses more methods."""
+"""The initial number of random methods of the sub-family. If this number is too small, the computation is
+repeated with more methods."""
 
 SPARE = 24
-"""The least number of surplus random methods. Without a surplus, independent conditions could seem dependent
-by accident."""
+"""The number of random methods must exceed the number of terms in a linear combination by at least ``SPARE``.
+Otherwise independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
 """The size, in bits, of the primes modulo which conditions are evaluated. A residue of this size fits in a
 machine word."""
 
 MAX_PRIMES = 24
-"""The largest number of primes that are tried. A rational coefficient is reconstructed from its residues
+"""The number of primes after which the search ends. A rational coefficient is reconstructed from its residues
 modulo several primes. Coefficients with larger numerators and denominators need more primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to a linear combination of monomials. The left-hand side of the
-condition is equal to this combination modulo one prime. A monomial is a product of left-hand sides of
-conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where sqrt(d) is the only
-square root in the tableau file."""
+"""A map from each dependent condition to a linear combination of monomials, for one prime. Modulo this prime,
+the left-hand side of the condition is equal to the linear combination. A monomial is a product of left-hand
+sides of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where sqrt(d) is the
+only square root in the tableau file."""
 
 
 @dataclass(frozen=True)
@@ -55,9 +55,9 @@ class Dependences:
     """The independent and the dependent conditions of a sub-family.
 
     - ``pivots``: the independent conditions.
-    - ``primes``: several primes.
-    - ``residues``: for each prime, the dependent conditions as polynomials in the independent conditions,
-      modulo this prime.
+    - ``primes``: the primes of the computation.
+    - ``residues``: one map for each prime. The map contains a polynomial modulo this prime for each dependent
+      condition.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -66,8 +66,8 @@ class Dependences:
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
         """Yield a pair (condition, combination) for each dependent condition. The combination expresses the
-        left-hand side of the condition as a polynomial in left-hand sides of independent conditions. If more
-        primes are needed to determine the polynomial, the combination is None."""
+        left-hand side of the condition as a polynomial in left-hand sides of independent conditions. If the
+        primes do not determine the polynomial, the combination is None."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -94,9 +94,8 @@ def dependences(
     """Yield the independent and the dependent conditions of a sub-family. The first result is computed modulo
     one prime, the second result modulo two primes, and so on.
 
-    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. If two
-    primes give different numbers of independent conditions, the result for the smaller number is wrong and
-    is discarded.
+    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. Modulo
+    an unsuitable prime, too few conditions are independent. The result for such a prime is discarded.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -138,9 +137,9 @@ def _modulo(
     to a polynomial in the independent conditions.
 
     If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Modulo the
-    prime, d has two square roots r and -r. The polynomials are computed with r and with -r in place of
-    sqrt(d), and x and y follow from the two results. Return None if the independent conditions for r and for
-    -r differ.
+    prime, d has two square roots r and -r. Each polynomial is computed twice, with r and with -r in place of
+    sqrt(d). The numbers x and y follow from the two polynomials. If the independent conditions for r and for
+    -r differ, return None.
     """
     prime = sampling.prime
     if surd is None:
@@ -187,9 +186,12 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """A monomial and its values modulo a prime. The monomial is the product of the left-hand sides of the
-    conditions in ``factors``. ``members`` contains the values of this product at random methods of the
-    sub-family. ``flow`` is the product of the right-hand sides."""
+    """A product of conditions, evaluated modulo a prime.
+
+    - ``factors``: the conditions.
+    - ``members``: the product of the left-hand sides at each random method of the sub-family.
+    - ``flow``: the product of the right-hand sides.
+    """
 
     factors: Monomial
     members: Sample
@@ -216,8 +218,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return the left-hand sides of the conditions at ``count`` random methods, and the right-hand sides.
-        ``root`` is the residue that replaces the only square root in the formulas. If ``root`` is None,
-        random residues replace all roots."""
+        In the formulas, the residue ``root`` is used as the value of the only square root. If ``root`` is
+        None, random residues are used as the values of all roots."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -231,9 +233,9 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. The
-    formulas of a tableau file may contain roots. If ``square_root`` is given, this residue replaces every
-    square root. Random residues replace all other roots."""
+    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. In
+    the formulas of a tableau file, random residues are used as the values of roots. If ``square_root`` is
+    given, this residue is used as the value of every square root."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -241,15 +243,15 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the residues that replace the root of x with degree ``index``. A second call with the same
-        arguments returns the same residues."""
+        """Return residues that are used as values of the ``index``-th root of x. The same arguments always
+        give the same residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return the random residues that replace the root with this name. A second call with the same name
-        returns the same residues."""
+        """Return random residues that are used as values of the root ``name``. The same name always gives the
+        same residues."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

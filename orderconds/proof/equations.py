@@ -1,5 +1,5 @@
-"""The equations that the decimals in a tableau file satisfy approximately. The exact solution of these
-equations is a method. The module also determines the orders of this method.
+"""The equations for the decimals in a tableau file, and the orders of the method. The decimals satisfy the
+equations approximately. The exact solution near the decimals contains the coefficients of the method.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
@@ -7,20 +7,19 @@ verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
   order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (Hairer, Lubich
-  and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). For compositions of midpoint rules, the order of
-  the composition implies the order of the tableau (Bogfjellmo and Marthinsen, Lemma 3.5.4).
-- ``symmetric``, for a Magnus method on s Gauss nodes: each condition belongs to a word. Up to order 2s, the
-  conditions of words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
-- ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
-  on a vector space (:mod:`orderconds.series.two_registers`).
+  and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of midpoint rules has
+  the same order in other families, such as ``rk`` and ``cg`` (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+- ``symmetric``, for a Magnus method on s Gauss nodes: each condition is defined by a word. Up to order 2s,
+  words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
+- ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
+  vector space (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
   (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
-- ``spelling``: coefficients that are formulas in other coefficients define a sub-family, in which some of the
-  conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+- ``spelling``: some coefficients are formulas in other coefficients. The formulas define a sub-family of
+  methods, in which some conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-A 2N scheme may contain an embedded method. The update of the embedded method applies one exponential more
-than the update of the scheme. The embedded update must satisfy the conditions of rooted trees, too
-(docs/explanation/two_registers.md).
+A 2N scheme may contain an embedded method, which applies one additional exponential. The equations for the
+embedded method are the conditions of rooted trees (docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations
@@ -51,22 +50,22 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 class Equations:
     """The equations that determine the decimals of ``tableau``.
 
-    ``facts`` contains pairs (family, order). Each solution of the equations is a method that has at least
-    this order in this family.
+    ``facts`` contains pairs (family, order). A method that satisfies the equations has at least the given
+    order in each family.
     """
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s of nodes if the method is a Magnus method on Gauss nodes and its order is at most 2s. Each
-    condition then belongs to a word in the letters 1, ..., s. For other methods, the value is None."""
+    """The number s of nodes for a Magnus method on Gauss nodes, if the order in ``proof`` is at most 2s. Only
+    conditions of words in the letters 1, ..., s are used. For other methods, the value is None."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The order conditions that must be solved if the reduction is ``spelling`` or ``low-storage``. For other
-    reductions, the value is None."""
+    """The order conditions in the equations, for the reductions ``spelling`` and ``low-storage``. Otherwise,
+    the value is None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a low-storage (2N) scheme. The list of all equations begins
-    with the conditions of the method and ends with these conditions."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
+    conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). There are no pairs if ``lower`` is
     empty."""
@@ -75,7 +74,7 @@ class Equations:
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
         """Return the left-hand side minus the right-hand side of each equation. ``point`` contains the values
-        of the unknowns in ``ring``.
+        of the unknowns. The values are elements of ``ring``.
 
         If ``places`` is given, only the equations with these indices are evaluated.
         """
@@ -122,8 +121,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # ``family.conditions`` omits conditions that are dependent modulo primes. A condition that is independent
-    # over the rationals Q could be omitted by mistake. Therefore the dependences are verified over Q.
+    # ``family.conditions`` omits conditions that are dependent modulo primes. Such a condition could be
+    # independent over the rationals Q. Therefore the dependences are verified over Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -136,7 +135,7 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 def equations(tableau: Tableau) -> Equations:
     """Return the equations that the ``[proof]`` table of a tableau file specifies. If the table names a
-    reduction, the assumptions of the reduction are tested first.
+    reduction, the function tests the assumptions of the reduction.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -197,9 +196,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    The embedded update must consist of the exponentials of the method and one additional exponential.
-    Otherwise the result is empty. The result is also empty if the order of the embedded method exceeds the
-    order in ``proof``.
+    The embedded update must consist of the exponentials of the method and one additional exponential. Its
+    order must not exceed the order in ``proof``. Otherwise the result is empty.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
@@ -227,8 +225,7 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
     """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s.
-    Otherwise, return None. If a node depends on a rounded decimal of the file, return None, because the node
-    is not known exactly.
+    Otherwise, return None. A node that depends on a rounded decimal is not accepted as a Gauss node.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -278,8 +275,8 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
     ``values`` contains one jet for each equation: the value and the gradient of the equation in ball
-    arithmetic over a box. An equation can be an identity only if all balls of its jet contain zero. Such an
-    equation is evaluated exactly, with random numbers for the unknowns
+    arithmetic over a box. If a ball of the jet does not contain zero, the equation is not an identity. All
+    other equations are evaluated exactly, with random numbers for the unknowns
     (:mod:`orderconds.tableau.random_member`).
 
     >>> from flint import arb

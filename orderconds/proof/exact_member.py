@@ -1,10 +1,9 @@
-"""Exact left-hand sides of order conditions for one random method. They are used to verify that one left-hand
-side is a polynomial in others.
+"""Exact verification that the left-hand side of one order condition is a polynomial in the left-hand sides of
+other conditions. The left-hand sides are evaluated at one random method.
 
-A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
-a method of this sub-family. Random members are constructed in :mod:`orderconds.tableau.random_member`. If the
-only radical in the file is sqrt(d), the coefficients of a random member are in Q(sqrt(d)). Otherwise the
-coefficients are rational.
+The formulas in a tableau file define a sub-family of methods. A *member* is a method of this sub-family.
+Random members are constructed in :mod:`orderconds.tableau.random_member`. If the only radical in the file is
+sqrt(d), the coefficients of a random member are in Q(sqrt(d)). Otherwise the coefficients are rational.
 """
 
 from __future__ import annotations
@@ -95,8 +94,8 @@ class ExactMember:
     def holds(self, condition: OrderCondition) -> bool:
         """Return True if a condition holds at this member of the sub-family.
 
-        This member was chosen at random. If the condition holds here, it holds for the whole sub-family with
-        a negligible probability of error (:mod:`orderconds.tableau.random_member`).
+        The probability that a false condition holds at a random member is negligible
+        (:mod:`orderconds.tableau.random_member`).
         """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
@@ -104,9 +103,10 @@ class ExactMember:
         """Return True if ``condition`` follows from the conditions in ``combination``. Return False if
         ``combination`` is None.
 
-        ``combination`` is a polynomial. Its value at the left-hand sides must equal the left-hand side of
-        ``condition``, and its value at the right-hand sides must equal the right-hand side. The left-hand
-        sides are tested only at this random member. The probability of a wrong result True is negligible.
+        ``combination`` is a polynomial p in other conditions. The left-hand side of ``condition`` must equal
+        p at the left-hand sides of the other conditions. The right-hand side must equal p at the right-hand
+        sides. The left-hand sides are tested only at this random member. The probability of a wrong result
+        True is negligible.
         """
         if combination is None:
             return False
@@ -164,8 +164,8 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """The field Q(sqrt(d)), in which formulas of a tableau file are evaluated. The rounded decimals and the
-    named roots in the formulas are replaced by random numbers."""
+    """The field Q(sqrt(d)), in which the formulas of a tableau file are evaluated. Random numbers replace
+    the rounded decimals and the named roots."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -28,8 +28,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the order in ``family`` that ``facts`` imply. A tableau for which ``facts`` are true has at
-    least this order. If ``facts`` imply no order, return 0.
+    """Return the largest lower bound of the order in ``family`` that follows from ``facts``. If ``facts``
+    imply no bound, return 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -39,8 +39,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return a map from labels of families to orders. If ``facts`` are true for a method, its order in each
-    of these families is at least the order in the map.
+    """Return lower bounds of orders that follow from ``facts``, as a map from labels of families to orders.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -58,9 +57,9 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
-    ``family`` implies order n in another family, then the exact order in the other family is an upper bound
-    of the order in ``family``.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. Suppose that
+    order n in ``family`` implies order n in a second family. Then the exact order in the second family is an
+    upper bound. The order in ``family`` is determined if a lower bound is equal to an upper bound.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -21,8 +21,9 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables. A jet is a value with its gradient. The arguments are n jets for
-the variables and the ring of these jets. The result contains n jets, one for each function."""
+"""A system of n functions of n variables. A jet is a value with its gradient. The first argument contains
+one jet for each variable. The second argument is the ring of the jets. The result contains one jet for each
+function."""
 
 MAX_SWEEPS = 40
 
@@ -88,8 +89,10 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return an approximate inverse of a square matrix of balls. The entries are the midpoints of the inverse
-    in ball arithmetic. Raises :class:`NotProved` if the balls may contain a singular matrix.
+    """Return an approximate inverse of a square matrix of balls. The inverse is computed in
+    ball arithmetic, and each ball is replaced by its midpoint.
+
+    Raises :class:`NotProved` if the balls may contain a singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

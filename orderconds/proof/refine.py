@@ -1,8 +1,8 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
-If there are more decimals than equations, Newton's method changes only some of the decimals. Gaussian
-elimination with complete pivoting, applied to the Jacobian of the equations, selects these decimals. The
-remaining decimals are pinned: their digits do not change.
+If there are more decimals than equations, Newton's method changes only some of the decimals. These decimals
+are selected by Gaussian elimination of the Jacobian with complete pivoting. The remaining decimals are
+pinned: their digits do not change.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest accepted change of a decimal. A solution at a larger distance is rejected, because it would be
-a different method."""
+"""The largest accepted change of a decimal. A larger change is rejected, because the result would be a
+different method."""
 
 
 @dataclass(frozen=True)
@@ -48,9 +48,11 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
     is the text of the file.
 
-    The result contains the text of a new file. Decimals that did not change are taken as exact numbers. The
-    list ``pins`` of the new file contains their names. The table ``[proof.printed]`` contains the original
-    digits. Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
+    The result contains the text of a new file. In the new file, the list ``pins`` contains the names of the
+    decimals that did not change. These decimals are taken as exact numbers. The table ``[proof.printed]``
+    contains the original digits.
+
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
 
     >>> from orderconds.tableau import find
@@ -68,8 +70,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # To find equations that are identities, the equations are evaluated on a box. At a single point, the
-        # value and the gradient of any equation can be zero by chance.
+        # Equations that are identities are omitted. The test evaluates the equations on a box.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -84,14 +85,13 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Return the indices of the unknowns that the equations determine best, in ascending order.
+    """Select one unknown for each equation. Return the indices of these unknowns in ascending order.
 
-    Gaussian elimination with complete pivoting, applied to ``jacobian``, selects these unknowns. Each row of
-    ``jacobian`` contains the derivatives of one equation. Before the elimination, each row is divided by its
-    largest entry.
+    Each row of ``jacobian`` contains the derivatives of one equation. The function divides each row by its
+    largest entry. Gaussian elimination with complete pivoting selects the unknowns.
 
-    A pivot below 1e-8 indicates that the equations are dependent. In this case,
-    :class:`~orderconds.proof.krawczyk.NotProved` is raised.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the
+    equations may be dependent.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -153,8 +153,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the tableau file ``text`` with the new digits in ``decimals``. In the result, the list ``pins``
-    of the table ``[proof]`` contains the names in ``pinned``, and the table ``[proof.printed]`` contains the
+    """Return the text of the new tableau file. ``decimals`` maps names of decimals to their new digits. The
+    list ``pins`` of the new file contains the names in ``pinned``. The table ``[proof.printed]`` contains the
     original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
@@ -206,10 +206,10 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number ``name`` as text. For this computation, the decimals in the tableau
-    file are taken as exact numbers."""
+    """Return the value of the number ``name`` as text. The decimals in the tableau file are taken as exact
+    numbers."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
+    # The type RootedRing has a method for roots, but the ring QQ has none. A decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 

@@ -1,9 +1,10 @@
 """The independent conditions of a sub-family of methods. If the table ``[proof]`` of a tableau file contains
-``reduction = "spelling"``, only these conditions must be solved.
+``reduction = "spelling"``, these conditions are the equations for the coefficients.
 
 Formulas in the file, such as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family. In the sub-family,
-fewer conditions are independent. A condition is omitted if its left-hand side is a polynomial in the
-left-hand sides of retained conditions. The same polynomial must relate the right-hand sides.
+fewer conditions are independent. A condition is omitted if it follows from retained conditions. In this
+case, its left-hand side is a polynomial in the left-hand sides of the retained conditions. Its right-hand
+side is the same polynomial in the right-hand sides.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). This computation is not a
 proof. Therefore each polynomial is verified exactly at one random method of the sub-family
@@ -24,12 +25,12 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the independent conditions of a sub-family. If a method of the sub-family satisfies them, it
-    satisfies all conditions up to ``order``.
+    """Return the independent conditions of a sub-family. If a method of the sub-family satisfies these
+    conditions, it satisfies all conditions up to ``order``.
 
-    ``symbolic`` describes the sub-family. The function ``read(method, ring)`` converts a method to the format
-    in which ``family`` evaluates its conditions. ``ring`` contains the coefficients of the method. By default
-    the method is not converted.
+    ``symbolic`` describes the sub-family. ``read(method, ring)`` converts a method with coefficients in
+    ``ring`` to the format in which ``family`` evaluates its conditions. If ``read`` is None, the method is
+    not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau
@@ -58,8 +59,8 @@ def independent_conditions(
 
 
 def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
-    """Return one tuple of conditions for each order. If a method of the family satisfies these conditions, it
-    satisfies all conditions up to ``order``.
+    """Return a list with one tuple of conditions for each order from 1 to ``order``. If a method of the
+    family satisfies all conditions in the list, it satisfies all conditions up to ``order``.
 
     >>> from orderconds import families
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]

@@ -53,14 +53,14 @@ class Balls:
             return Ball(arb(centre) + arb(0, arb(radius)), self.bits)
 
     def constant(self, value: Fraction, unit: Fraction = Fraction(0)) -> Ball:
-        """Return a ball that contains [value - unit, value + unit]."""
+        """Return a ball that contains the interval [value - unit, value + unit]."""
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (value, unit))
         return self.around(centre, radius)
 
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if x is negative and the index is even, or if the sign of x is not proved.
+        Raises ValueError for an even root of a negative number, and if the sign of x is not proved.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -155,7 +155,7 @@ class Enclosures:
 
     The caller sets the working precision in a block ``with precision(bits)``. Arithmetic is faster than in
     :class:`Balls` and returns the same balls. There is one exception: division by a ball that contains zero
-    raises no error here, but returns a ball that is not finite.
+    returns a ball that is not finite. In :class:`Balls`, this division raises an error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -195,7 +195,7 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # abs(x) would round to the current precision. The mantissa and the exponent are exact integers.
+    # The mantissa and the exponent are exact integers. In contrast, abs(x) is rounded.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
@@ -203,11 +203,11 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest integer d with 10^-d >= 2 ``radius``.
 
-    Let a ball with this radius enclose a number. If the midpoint of the ball is rounded to d decimal places,
-    the result differs from the number by at most 10^-d.
+    If the midpoint of a ball with this radius is rounded to d decimal places, the result differs from each
+    number in the ball by at most 10^-d.
     """
-    # radius.p and radius.q are integers of flint. A Python integer can be converted by ``str`` only if it has
-    # at most 4300 digits.
+    # ``str`` converts flint integers of every size, but Python integers of at most 4300 digits. radius.p and
+    # radius.q are flint integers.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
@@ -280,7 +280,7 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Return True if two balls have the same end points. Such balls may enclose different numbers."""
+        """Return True if two balls have the same end points. The enclosed numbers may differ."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:
