@@ -1,8 +1,7 @@
-"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: it is a closest
-decimal with the given number of digits, or a closest double.
+"""Conversion of exact numbers to decimals and doubles. All results are correctly rounded.
 
 An irrational number is given by a function that computes an enclosing ball at any precision. The precision is
-increased until both end points of the ball round to the same result.
+increased until both end points of the ball round to the same decimal or double.
 """
 
 from __future__ import annotations
@@ -46,8 +45,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent is defined by 10^exponent <= p/q < 10^(exponent+1). The number of digits of p
-    # minus the number of digits of q can exceed the exponent by one.
+    # The exponent e of p/q satisfies 10^e <= p/q < 10^(e+1). If p has m digits and q has n digits, then e is
+    # m - n or m - n - 1.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1

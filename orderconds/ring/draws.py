@@ -1,8 +1,8 @@
 """Pseudorandom numbers, computed with the hash function SHA-256.
 
 Some randomised proofs evaluate an object at random points or modulo a random prime. The random numbers are
-computed from a description of the object. If they were fixed, somebody could construct a wrong object that
-passes the test for exactly these numbers.
+computed from a description of the object. Fixed numbers would be unsafe: somebody who knows the numbers could
+construct an incorrect object that passes the test.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers. Each number is computed from a name and from the texts in ``described``. Equal
-    names and equal texts give equal numbers.
+    """A generator of pseudorandom numbers. The constructor takes texts that describe an object. A number is
+    computed from these texts, a name and a number of bits.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
@@ -26,8 +26,8 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return the pseudorandom number with this name. It is an integer from 0 to 2^bits - 1, and each
-        integer in this range is equally probable."""
+        """Return a pseudorandom integer from 0 to 2^bits - 1 for this name. All integers in this range are
+        equally probable."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
@@ -36,10 +36,10 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits that are congruent to 3 modulo 4.
+        """Yield different primes p that have ``bits`` binary digits and are congruent to 3 modulo 4.
 
-        Modulo such a prime p, square roots are easy to compute: if x is a square, x^((p + 1)/4) is a square
-        root of x. No prime divides a non-zero number in ``avoided``.
+        Square roots modulo p are easy to compute: if x is a square modulo p, then x^((p + 1)/4) is a square
+        root of x. Primes that divide a non-zero number in ``avoided`` are skipped.
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

@@ -1,5 +1,9 @@
-"""Maps from one ring to another: from Q to every ring, from number fields to balls and to larger number
-fields, and from a ring R to the ring of power series with coefficients in R."""
+"""Maps from one ring to another:
+
+- from Q to every ring,
+- from a number field to balls or to a larger number field,
+- from a ring R to the ring of power series with coefficients in R.
+"""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
 """Real number fields, whose elements are exact algebraic numbers.
 
-A field Q(a) is defined by the minimal polynomial of a real number a and by enclosures of a. An element is a
-polynomial in a. Its degree is smaller than the degree of the minimal polynomial. The element is zero if and
-only if all coefficients of the polynomial are zero.
+A field Q(a) is defined by the minimal polynomial of a real number a and by a function that computes balls
+around a. An element of the field is represented by a polynomial in a. The degree of this polynomial is
+smaller than the degree of the minimal polynomial. An element is zero if and only if its polynomial is zero.
 
 The class :class:`orderconds.ring.tower.Tower` constructs a sequence of fields by adjoining one root after
-another. Elements of smaller fields of a tower are converted to the larger field.
+another. If an operation combines elements of two fields of a tower, the result lies in the larger field.
 """
 
 from __future__ import annotations
@@ -27,8 +27,7 @@ LARGE = 8
 computed by Euclid's algorithm."""
 
 REMEMBERED = 1000
-"""Each field has a cache for converted elements of smaller fields. This is the largest number of entries of
-the cache."""
+"""The largest number of converted elements of smaller fields that a field stores in its cache."""
 
 
 class Generator(Struct, frozen=True):
@@ -37,7 +36,7 @@ class Generator(Struct, frozen=True):
 
     - ``index``: n for an n-th root, and 0 for a named root.
     - ``symbol``: the radicand of a radical as text, or the name of a named root.
-    - ``degree``: the degree of the field with the root over the field without the root.
+    - ``degree``: the degree of the field extension that the root generates.
     - ``minpoly``: the polynomial of a named root, and None for a radical.
     """
 
@@ -48,7 +47,7 @@ class Generator(Struct, frozen=True):
     minpoly: fmpq_poly | None = None
 
     def power(self, n: int) -> str:
-        """Return the n-th power of the root as text, for n > 0."""
+        """Return the n-th power of this root as text, for n > 0."""
         if self.index == 0:
             return self.symbol if n == 1 else f"{self.symbol}^{n}"
         if self.index == 2 and n == 1:
@@ -58,13 +57,13 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q[x]/(modulus). The element x, called the primitive element, represents one real root of
-    ``modulus``. The function ``enclosure(bits)`` returns a ball around this root.
+    """The real field Q(a) for a real root a of the irreducible polynomial ``modulus``. The root a is called
+    the primitive element. The function ``enclosure(bits)`` returns a ball around a.
 
     - ``generators``: the roots that were adjoined to Q, in the order in which they were adjoined.
-    - ``images``: the generators as polynomials in x.
-    - ``parent``: the field before the last generator was adjoined, or None.
-    - ``parent_image``: the primitive element of ``parent`` as a polynomial in x, or None.
+    - ``images``: the generators as polynomials in a.
+    - ``parent``: the field to which the last generator was adjoined, or None for the field Q.
+    - ``parent_image``: the primitive element of ``parent`` as a polynomial in a, or None for the field Q.
     - ``reciprocals``: a cache of the inverses of elements of the field.
     """
 
@@ -137,7 +136,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # The results are cached, because the same numbers are converted many times while a file is read.
+        # The converted number is cached, because many numbers are converted repeatedly.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)
@@ -165,8 +164,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q. Each basis element is a product of powers of the generators. It is
-        represented by the tuple of the exponents, one for each generator."""
+        """A basis of the field over Q that consists of products of powers of the generators. The tuple of the
+        exponents represents a product."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -243,8 +242,7 @@ class Algebraic:
     """An element of a number field: a ``polynomial`` in the primitive element. The degree of the polynomial
     is less than the degree of the field.
 
-    The other operand of an arithmetic operation may also have the type ``fmpq`` or ``int``, or be an element
-    of another field of the same tower.
+    Arithmetic operators accept elements of all fields of one tower, and numbers of type ``fmpq`` or ``int``.
     """
 
     __slots__ = ("field", "polynomial")
@@ -411,7 +409,6 @@ def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmp
 
 
 def _columns(polynomials: list[fmpq_poly], degree: int) -> fmpq_mat:
-    """Return the matrix whose columns contain the coefficients of the given polynomials, padded with
-    zeros."""
+    """Return the matrix with ``degree`` rows whose columns contain the coefficients of the polynomials."""
     rows = [[p[i] for p in polynomials] for i in range(degree)]
     return fmpq_mat(degree, len(polynomials), [x for row in rows for x in row])

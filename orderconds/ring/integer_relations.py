@@ -1,10 +1,10 @@
-"""Integer relations between numbers that are known only approximately, by lattice reduction.
+"""Lattice reduction that finds integer relations between approximate numbers.
 
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let N be a large
-number, and let e_k be the unit vectors. Consider the lattice spanned by the vectors (e_k, N x_k): the number
-N x_k is an additional entry after those of e_k. A relation with small integers c_k gives a short vector of
-this lattice. The algorithm of Lenstra, Lenstra and Lovasz (1982) finds short vectors. The relation is checked
-only for the approximate numbers, so the caller must prove it for the exact numbers.
+number, and let e_k be the unit vectors. Append the number N x_k, rounded to an integer, to each vector e_k.
+The extended vectors span a lattice. A relation with small integers c_k gives a short vector of this lattice.
+The algorithm of Lenstra, Lenstra and Lovasz (1982) finds short vectors. The result is only a candidate,
+because the numbers are approximate. The caller must prove the relation for the exact numbers.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""Random numbers can satisfy a relation with small coefficients by chance. A relation is accepted only if the
-probability of such a coincidence is about 2^-GUARD or less."""
+"""Random numbers can satisfy a relation with small coefficients by chance. The function :func:`relation`
+returns a relation only if the probability of this coincidence is about 2^-GUARD or less."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
     """Return an integer relation of the numbers in ``values``, or None if no relation is found.
 
-    Let x_k be the numbers. The result contains small integers c_k for which sum_k c_k x_k is close to zero:
-    the deviation is about 2^-bits.
+    Let x_k be the numbers in ``values``. The result contains small integers c_k. The absolute value of
+    sum_k c_k x_k is a small multiple of 2^-bits.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -62,7 +62,8 @@ def root_of(d: int, bits: int) -> Fraction:
 def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
-    The error is about 2^-bits. The result is None if no d is found.
+    The element is a root of a quadratic polynomial with small integer coefficients. The value of this
+    polynomial at x is a small multiple of 2^-bits. Return None if no polynomial is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

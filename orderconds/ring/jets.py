@@ -17,8 +17,8 @@ from orderconds.ring.protocol import Element
 
 
 class Jets:
-    """The ring of functions of ``width`` variables. A function is represented by enclosures of its value and
-    gradient at a point or on a box.
+    """The ring of functions of ``width`` variables. An element encloses the value and the gradient of a
+    function, at one point or at all points of a box.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):
@@ -39,8 +39,8 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``. Its value is the ball ``value``, and its gradient is the
-        unit vector with this index."""
+        """Return the variable with index ``place``. Its value is the ball ``value``. The partial derivative
+        with this index is 1, and all others are 0."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
@@ -60,14 +60,17 @@ class Jets:
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
             raise ValueError(
-                "cannot compute a root of a number that is not proved to be positive; "
-                "if the index is odd, the number may also be negative"
+                "cannot compute a root: for an even index, the enclosure must be positive; "
+                "for an odd index, the enclosure must not contain zero"
             )
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
-        """Return the only real root of ``minpoly`` in [near - unit, near + unit], as a constant."""
+        """Return the only real root of ``minpoly`` (ascending coefficients) in [near - unit, near + unit].
+
+        The gradient is zero. Raises ValueError if the interval does not contain exactly one root.
+        """
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
@@ -83,8 +86,7 @@ class Jets:
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
-        """Return a tuple of texts. The first text is the enclosure of the value. It is followed by one
-        enclosure for each partial derivative."""
+        """Return the enclosures of the value and of the partial derivatives as texts."""
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:

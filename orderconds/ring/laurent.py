@@ -43,8 +43,8 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times the product of powers of the variables with the given ``exponents``. The
-        exponents must not be negative."""
+        """Return ``scale`` times a monomial. ``exponents`` contains the exponents of the variables, which
+        must not be negative."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
@@ -139,7 +139,7 @@ class Laurent:
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Laurent:
-        """Return the quotient by a non-zero monomial. Raises ZeroDivisionError for any other divisor."""
+        """Divide by a non-zero monomial. Raises ZeroDivisionError for all other divisors."""
         y = self._other(other)
         if y is None:
             return NotImplemented

@@ -6,14 +6,18 @@ entries then has the form (p(c_1), ..., p(c_s)) for exactly one polynomial p of 
 componentwise product of two vectors corresponds to the product of their polynomials modulo M. The
 multiplication by the matrix A of the method corresponds to a linear map of polynomials.
 
-Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. This module applies if the
-polynomial of each vector A c^k has rational coefficients, and if each number sum_i b_i c_i^k is rational. The
-order conditions are then computed with rational polynomials. This is faster than arithmetic in a large number
-field: five Radau nodes generate a field of degree 24.
+Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. The module requires two
+more properties of the method:
+
+- The polynomial of each vector A c^k has rational coefficients.
+- Each number sum_i b_i c_i^k is rational.
+
+Order conditions of such a method can be computed with rational polynomials. This is faster than arithmetic in
+a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
 number field. For a collocation method, the linear map of the matrix A maps a polynomial p to its integral
-from 0 to z, modulo M. For other methods, corrections are added (:class:`NodalAlgebra`).
+from 0 to z, modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
 """
 
 from __future__ import annotations
@@ -29,22 +33,23 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""The precision, in bits, of the interpolation with balls. The results are balls around the coefficients of a
-polynomial. The rational number with the smallest denominator in a ball is a candidate for the coefficient."""
+"""The precision, in bits, of the polynomial interpolation at the nodes. The interpolation returns a ball
+around each coefficient. The candidate is the rational number with the smallest denominator in this ball."""
 
 Matrix = Sequence[Sequence[Element]]
 
 
 class NodalAlgebra:
-    """The algebra Q[z]/M for the nodes c_i of a method. A polynomial p represents the vector of the values
-    p(c_i). Multiplication by a matrix of the method is a linear map from Q[z]/M to itself. The scalar product
-    with the weights is a linear map from Q[z]/M to Q.
+    """The algebra Q[z]/M of a method, where M is the monic polynomial whose roots are the nodes c_i.
 
-    For a collocation method, both linear maps are integrals of p: from 0 to z modulo M, and from 0 to 1.
-    Two attributes store the deviations of other methods from these integrals:
+    A polynomial p represents the vector with the entries p(c_i). Multiplication by a matrix of the method is
+    a linear map from Q[z]/M to itself. The scalar product with the weights is a linear map from Q[z]/M to Q.
 
-    - ``corrections[kind]``: a list of pairs (k, d). The linear map of the matrix with index ``kind`` maps the
-      power z^k to its integral z^(k+1)/(k+1) modulo M, plus the polynomial d.
+    For a collocation method, the first map is the integral of p from 0 to z, modulo M. The second map is the
+    integral of p from 0 to 1. For other methods, two attributes store the deviations from these integrals:
+
+    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. The linear map sends
+      z^k to the sum of z^(k+1)/(k+1) and the polynomial d, modulo M.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 
@@ -99,8 +104,8 @@ class NodalAlgebra:
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
         """Return the matrices of two linear maps in the basis 1, z, z^2, ... of the algebra.
 
-        The first map is multiplication by A - e b^T, and the second map is multiplication by A. Here A is the
-        first matrix of the method, b is the vector of the weights, and e is the vector of ones.
+        The first map multiplies a vector by A - e b^T, and the second map multiplies a vector by A. Here A is
+        the first matrix of the method, b is the vector of the weights, and e is the vector of ones.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -120,10 +125,9 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
     The result is None in each of these cases:
 
-    - ``ring`` is not a number field, or it is Q.
+    - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
-    - The polynomial M, the polynomial of a vector A c^k, or a number sum_i b_i c_i^k is not rational. See the
-      module docstring for these objects.
+    - The method lacks one of the rationality properties in the module docstring.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -136,8 +140,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. Two keys are equal if the coefficients of both methods are the same Python
-    objects."""
+    """A cache key for a method. The key compares coefficients as Python objects, not by value."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -185,8 +188,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Polynomial interpolation at the nodes, computed with balls. The object is called with the values of a
-    polynomial at the nodes. It returns a rational candidate for each coefficient of the polynomial."""
+    """A function that takes the values of a polynomial at the nodes. The function returns a rational
+    candidate for each coefficient of the polynomial, computed by interpolation with balls."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -225,8 +228,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the rational polynomial with the given values at the nodes. The object ``guess`` proposes the
-    coefficients. Return None if a value of the proposed polynomial differs from the given value."""
+    """Return the polynomial with the coefficients ``guess(values)``. Return None if the values of this
+    polynomial at the nodes differ from ``values``."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

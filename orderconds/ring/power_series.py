@@ -1,7 +1,6 @@
-"""Truncated power series in the step size h, over any base ring. Terms of degree above ``order`` are omitted.
+"""Truncated power series in the step size h, over any base ring.
 
-If a step of a method is computed with power series instead of numbers, the result is the Taylor expansion of
-the step in powers of h.
+A step of a method with power series as scalars gives the Taylor expansion of the step in h.
 """
 
 from __future__ import annotations
@@ -50,14 +49,14 @@ class PowerSeries:
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Return True if all coefficients up to the order are zero, False if some coefficient is not zero,
-        and None if the base ring cannot decide."""
+        """Return True if all coefficients are proved to be zero, and False if some coefficient is proved to
+        be nonzero. Return None in all other cases."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Return x as text, in ascending powers of h. The coefficient of a positive power of h is in
-        parentheses if it is a sum."""
+        """Return x as text, in ascending powers of h. Coefficients that are sums are in parentheses, except
+        the constant term."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
@@ -81,7 +80,7 @@ class PowerSeries:
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the smallest k for which the coefficient of h^k is not proved to be zero.
+        """Return the smallest k for which the coefficient of h^k may be nonzero.
 
         Return order + 1 if all coefficients are proved to be zero.
         """
@@ -94,7 +93,7 @@ class PowerSeries:
 class Series:
     """A truncated power series. ``coefficients[k]`` multiplies h^k.
 
-    Operands may be series of the same ring, elements of the base ring, or integers.
+    Arithmetic operators accept series of the same ring, elements of the base ring, and integers.
     """
 
     __slots__ = ("coefficients", "ring")

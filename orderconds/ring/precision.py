@@ -1,7 +1,7 @@
 """The working precision of flint, a global variable of the process.
 
-The project changes the precision only by the context manager :class:`precision`, which restores the previous
-precision at the end.
+The project changes the precision only in blocks ``with precision(bits)``. At the end of a block, the previous
+precision is restored.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from flint import ctx
 
 
 class precision:  # noqa: N801 - a lower-case name, because the class is used as ``with precision(200):``
-    """A context manager that sets the working precision of balls to ``bits`` and restores the previous
-    precision at the end.
+    """A context manager that sets the working precision of balls to ``bits`` in a ``with`` block. At the end
+    of the block, the previous precision is restored.
 
     >>> from flint import arb
     >>> with precision(200):

@@ -1,8 +1,9 @@
-"""The interface of scalar rings. An algorithm that uses only this interface works over exact, certified,
+"""The interface of scalar rings. An algorithm that uses only this interface accepts exact, certified,
 symbolic and numeric scalars.
 
-Elements define the arithmetic operators: ``+ - *`` with other elements and with Python ``int`` on either
-side, unary ``-``, and ``/`` if the ring is a field. All other operations are methods of the ring object.
+Elements define the operators ``+ - *`` and unary ``-``. Elements of a field also define ``/``. In an
+operation with two operands, one operand may be a Python ``int``. All other operations are methods of the
+ring object.
 """
 
 from __future__ import annotations
@@ -13,8 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 Element = Any
-"""An element of a ring, or a Python ``int`` that is combined with an element. Objects of flint, mpmath and
-NumPy are elements without a wrapper."""
+"""An element of a ring, or a Python ``int``. Elements of some rings are flint, mpmath or NumPy objects."""
 
 Key = tuple[Any, ...]
 """A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""
@@ -35,7 +35,7 @@ class Ring(Protocol):
         the result is None for a ball that contains zero and other numbers."""
 
     def text(self, x: Element) -> str:
-        """Return x as exact text, in the grammar of tableau files if this grammar can express x."""
+        """Return x as text. If possible, the text follows the grammar of tableau files."""
 
     def key(self, x: Element) -> Key:
         """Return a hashable sort key. Equal elements of this ring have equal keys."""
