@@ -1,8 +1,8 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-A step is represented by its series, which has one coefficient for each tree or forest. The function that
-maps a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1. A
-cut of a tree or forest (:mod:`orderconds.series.cuts`) may have several components. Their coefficients are
+A step is represented by its series, which has one coefficient for each tree or forest. The function that maps
+a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1. A cut
+(:mod:`orderconds.series.cuts`) may remove several components. The coefficients of these components are
 multiplied.
 
 A B-series has a coefficient a(t) for each canonical rooted tree t. The series is y1 = y0 + sum_t h^|t|
@@ -115,10 +115,10 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over all admissible cuts. Each summand is a product: every component contributes its
-        coefficient in this step, and the rest contributes its coefficient in ``other``.
+        """Return a sum over all admissible cuts. A summand is the product of the coefficients of all
+        components in this step and the coefficient of the rest in ``other``.
 
-        If ``whole`` is false, the cut without components is omitted.
+        If ``whole`` is false, the cut that removes nothing is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
@@ -131,7 +131,7 @@ class Character:
 
 
 def exact_flow(ring: Ring, algebra: TreeAlgebra) -> Character:
-    """Return the exact flow over a time h as a character.
+    """Return the exact flow over time h as a character.
 
     >>> from orderconds.ring import QQ
     >>> str(exact_flow(QQ, ORDERED)(bytes((0, 1, 2, 1))))

@@ -27,8 +27,8 @@ class DexpinvSeries:
     whose entries are elements of ``ring``. The series dexpinv is truncated after the power ``cutoff``. If
     ``cutoff`` is None, the series is not truncated.
 
-    Implicit tableaux need no iteration, because the coefficient of a forest depends only on the coefficients
-    of smaller forests.
+    The tableau may be implicit. The coefficients are computed recursively, because the coefficient of a
+    forest depends only on the coefficients of smaller forests.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -99,8 +99,8 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j. Stage j has the
-        argument u_j and the stage value k_j. The series dexpinv is truncated after the power r."""
+        """Return the coefficients of ``word`` in the truncated series dexpinv_{u_j} k_j for all stages j.
+        Stage j has the argument u_j and the stage value k_j."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -114,12 +114,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficients of the words v k_j w in dexpinv_{(r),u_j} k_j for all stages j. Return None
-        if all coefficients are zero.
+        """Return the coefficients of the words v k_j w in the truncated series dexpinv_{u_j} k_j for all
+        stages j. If all coefficients are zero, return None.
 
-        Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The series
-        dexpinv is truncated after the power r. The word v is ``start`` and has ``before`` letters. The word w
-        is ``end`` and has ``behind`` letters.
+        Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The word v is
+        ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -134,11 +133,11 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w, as triples (q, m, n).
+        """Return the terms q u^n x u^m of dexpinv_u x in which a word v x w occurs, as triples (q, m, n).
         Here q is a number, v has ``before`` letters, and w has ``behind`` letters.
 
-        In the product, the rightmost factor acts first. In the word, the first letter acts first. Hence u^m
-        contributes the word v, and u^n contributes the word w.
+        In a product, the rightmost factor acts first. In a word, the first letter acts first. Hence v is a
+        word in u^m, and w is a word in u^n.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:

@@ -1,8 +1,8 @@
-"""Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
+"""Products and brackets of polynomials in non-commuting letters.
 
 A polynomial is a map from words of letters to coefficients. The letters are 0, 1, 2, ..., and each letter has
 a grade. The grade of a word is the sum of the grades of its letters. The product of two words is their
-concatenation.
+concatenation. Words above a given grade are omitted.
 """
 
 from __future__ import annotations
@@ -81,8 +81,7 @@ def solve(
 ) -> list[Element] | None:
     """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution.
 
-    If there are several solutions, x_n is zero whenever ``columns[n]`` is a linear combination of earlier
-    columns. The ring must have division.
+    If ``columns[n]`` is a linear combination of earlier columns, x_n is zero. The ring must have division.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

@@ -40,8 +40,8 @@ class ExponentialsSeries:
 
     The product of the exponentials in ``stages[i]`` maps y0 to the point at which stage i evaluates the
     vector field. The product of the exponentials in ``update`` maps y0 to the result of the step. Each
-    exponential is given by its exponent, a list of pairs (index of a stage, coefficient of the stage value).
-    In each product, the exponential with index 0 acts first. The method may be implicit.
+    exponential is represented by its exponent. An exponent is a list of pairs (index of a stage, coefficient
+    of the stage value). In each product, the exponential with index 0 acts first. The method may be implicit.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -56,9 +56,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Triples (product, shorter, last), one for each non-empty partial product of exponentials. Without
-        its last exponential, the partial product with index ``product`` is the partial product with index
-        ``shorter``. The exponent of the last exponential is ``_rows[last]``."""
+        """Triples (product, shorter, last), one for each non-empty partial product of exponentials.
+        ``product`` is the index of the partial product. Its last exponential has the exponent
+        ``_rows[last]``. Without this exponential, the partial product has the index ``shorter``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -126,9 +126,8 @@ class ExponentialsSeries:
         format of ``places`` is described at ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The coefficient in a partial product is a sum over r. In term r, the last r letters of the word come
-        # from the last exponential of the partial product. All other letters come from the other
-        # exponentials.
+        # The coefficient in a partial product is a sum over r. In term r, the last exponential contributes
+        # the last r letters of the word. The earlier exponentials contribute all other letters.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]

@@ -1,11 +1,11 @@
-"""Selection of independent conditions on ordered forests for a family of methods. The values of the
-conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
-independent.
+"""Selection of independent order conditions for a family of methods. Each ordered forest has one condition.
+The left-hand sides of the conditions for random methods of the family form a matrix. The rank of this matrix
+shows which conditions are independent.
 
-A condition is superfluous if simpler conditions imply it. This is the case if its left-hand side is a linear
-combination of simpler left-hand sides and of products of left-hand sides of lower order. The right-hand sides
-must satisfy the same linear relation. The right-hand sides are the values of the exact flow, so one row
-of the matrix contains these values.
+A condition is omitted if it follows from earlier conditions. In this case, its left-hand side is a linear
+combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand sides
+must satisfy the same linear relation. To test this, one row of the matrix contains the right-hand sides. They
+are the coefficients in the exact flow.
 """
 
 from __future__ import annotations
@@ -22,9 +22,8 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that computes with many random methods of a family at the same time. The methods are called
-samples. The function returns one series. Each coefficient of the series is a vector with one number modulo a
-prime for each sample."""
+"""A function that returns one series for many random methods of a family. The methods are called samples. A
+coefficient of the series is a vector of numbers modulo a prime. Each sample has one number in this vector."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental
@@ -35,10 +34,10 @@ def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
     """Return the forests whose order conditions are independent, as one tuple for each order. ``candidates``
-    contains a sequence of forests for each order 1, 2, .... If conditions of the same order are dependent,
-    the forests at the beginning of the sequence are preferred.
+    contains a sequence of forests for each order 1, 2, .... A forest is omitted if its condition depends on
+    the conditions of earlier forests.
 
-    The order condition of a forest is: its coefficients in the method and in the exact flow are equal. If
+    The order condition of a forest requires equal coefficients in the method and in the exact flow. If
     ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
 
     The forests are selected modulo two primes, and the larger selection is returned. A selection modulo a
@@ -60,8 +59,7 @@ def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
     # Each order has a matrix with one row for each sample. The rank of the matrix is at most the number of
-    # ordered forests of this order. This bound is largest for the highest order. The number of samples must
-    # exceed the largest bound.
+    # ordered forests of this order. The number of samples must exceed this bound for the highest order.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -28,9 +28,9 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""Two functions for the exponential, and two functions for the Cayley transform. The first function returns
-the coefficients of the power series of the transform, without the constant term 1. The second function
-returns the coefficients of the inverse function of this series."""
+"""A pair of functions for each transform: the exponential and the Cayley transform. The first function
+returns the coefficients of the power series of the transform, without the constant term 1. The second
+function returns the coefficients of the inverse function of this series."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

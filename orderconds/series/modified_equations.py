@@ -1,11 +1,11 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
 One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
-+ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. The linear map L turns a
-function c of trees into the function L c. The value (L c)(t) is the sum of b(subtree) c(rest) over all ways
-to cut one subtree off t. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On ordered
-forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*.
++ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Let c be a function on
+trees. The linear map L maps c to the function L c. The value (L c)(t) is a sum over all edges of t. Removing
+an edge divides t into a subtree u and the part r that contains the root. The summand is b(u) c(r). Then a =
+sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math.
+539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -65,20 +65,19 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return a difference of two coefficients of a tree or forest: the coefficient in the flow minus the
-        coefficient in the vector field. The difference depends only on the coefficients of smaller trees in
-        the vector field."""
+        """Return the coefficient of a tree or forest in the flow minus its coefficient in the vector field.
+        Only the coefficients of smaller trees or forests in the vector field are used."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of the function L^(n-1) b for a tree or forest. The function b maps a tree or
-        forest to its coefficient in this vector field.
+        """Return the value of L^(n-1) b for a tree or forest. The function b maps a tree or forest to its
+        coefficient in this vector field.
 
-        The linear map L turns a function c into the function L c. The value (L c)(forest) is the sum of
-        b(component) c(rest) over all cuts that remove one component and leave a non-empty rest.
+        The linear map L maps a function c to the function L c. The value (L c)(forest) is a sum over cuts
+        that remove one component and leave a non-empty rest. The summand is b(component) c(rest).
         """
         if n == 1:
             return self(forest)
@@ -111,8 +110,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. Here |t| is the number of vertices, b(t) is the coefficient of t in the field, and sigma(t) is
-    the order of the symmetry group of t.
+    vertices. A free tree has no root, and t is a rooted tree that represents it. Here |t| is the number of
+    vertices, b(t) is the coefficient of t in the field, and sigma(t) is the order of the symmetry group of t.
 
     For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
     F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If
@@ -121,7 +120,7 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     Let u o v be the tree u with the additional branch v at its root. The field is Hamiltonian if b(u o v) +
     b(v o u) = 0 for all trees u and v. Raises :class:`~orderconds.errors.InputError` if the field is a
-    Lie-Butcher series, or if one of the equations cannot be proved.
+    Lie-Butcher series, or if one of these equations cannot be proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

@@ -9,8 +9,8 @@ from orderconds.ring.protocol import Element
 
 
 def products(generators: Sequence[tuple[int, Element]], degree: int) -> Iterator[Element]:
-    """Yield the value of every monomial in the generators that has degree ``degree``. Each generator is a
-    pair (degree, value).
+    """Yield the value of every monomial of degree ``degree`` in the generators. Each generator is a pair
+    (degree, value).
 
     >>> list(products([(1, 3), (2, 5)], 3))  # x^3 and x y, where x = 3 and y = 5
     [27, 15]

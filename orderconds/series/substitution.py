@@ -4,10 +4,12 @@ series in f.
 For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
 Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
-Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the vector
-field is replaced recursively. In a tree, the images of the branches are grafted onto the new vector field. In
-a forest, the images of the trees are concatenated (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295,
-Section 4.3).
+Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
+
+For Lie-Butcher series, the image of a forest is the result of replacing the vector field in this forest. The
+images are computed recursively. For a tree, the image of the forest of its branches is grafted onto the new
+vector field. For a forest, the images of the trees are concatenated (Lundervold and Munthe-Kaas, Contemp.
+Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -28,8 +30,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
-    values of ``step`` and ``field`` must be elements of the same ring.
+    """Apply the method ``step`` to the vector field ``field`` instead of f, and return the series of the
+    result. The coefficients of ``step`` and ``field`` must be elements of the same ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
@@ -56,13 +58,13 @@ def substituted(field: VectorField, step: Character) -> Character:
 
 
 def modifying_field(step: Character) -> VectorField:
-    """Return the field to which ``step`` must be applied so that the result is the exact flow of f. Here f is
-    the original vector field.
+    """Return the modifying field of a method. If ``step`` is applied to this field, the result is the exact
+    flow of the original vector field f.
 
-    This field is called the modifying field. Truncate the modifying field after the power h^(p-1) and apply
-    ``step`` to the truncated field. The result is a method of order at least p (Chartier, Hairer and Vilmart,
-    Math. Comp. 76 (2007) 1941). Raises :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher
-    series, or if the weights of ``step`` provably do not sum to 1.
+    Truncate the modifying field after the power h^(p-1) and apply ``step`` to the truncated field. The result
+    is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
+    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if the sum of its weights
+    is proved to differ from 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -82,9 +84,9 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
-        # summand ``field(tree)``, because a quotient tree with one vertex has the coefficient 1 in a
-        # consistent step. Hence ``field(tree)`` is ``flow(tree)`` minus the summands of all other partitions.
+        # The sum over all partitions must equal ``flow(tree)``. For the partition into one component, the
+        # summand is ``field(tree)``, because the step is consistent. Hence ``field(tree)`` is ``flow(tree)``
+        # minus all other summands.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -92,8 +94,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the coefficient of a tree in the series of the method ``step`` if the method is applied to the
-    vector field ``field``. The coefficient is a sum over partitions of the tree. If ``whole`` is false, the
+    """Apply the method ``step`` to the vector field ``field``, and return the coefficient of a tree in the
+    resulting series. The coefficient is a sum over partitions of the tree. If ``whole`` is false, the
     partition into one component is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
@@ -149,8 +151,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """A map that replaces the vector field f by ``field`` in words of ordered trees. The image of a word is a
-    linear combination of forests. Forests with more vertices than a given number are omitted."""
+    """A map from ordered forests to their images if ``field`` replaces the vector field f. An image is a
+    linear combination of ordered forests. Forests with more vertices than a given number are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -4,12 +4,12 @@ The registers are y and k. At the start of a step, k is zero. Stage i replaces k
 replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
 letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
 along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, only
-words with two properties are needed. The numbers of letters K and D are equal, and no suffix contains more
-letters K than letters D.
+words with two properties are needed. Such a word has equal numbers of letters K and D, and no suffix contains
+more letters K than letters D.
 
-A linear combination of words is a differential operator. If this operator is zero on all vector spaces, then
-it is zero on every group, and vice versa. The proof is in docs/explanation/two_registers.md. Hence a 2N
-scheme has the same order on groups and on vector spaces.
+A linear combination of words is a differential operator. The operator is zero on all groups if and only if it
+is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence a 2N scheme has the same order
+on groups and on vector spaces.
 
 The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series
 of a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
@@ -30,17 +30,16 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. The
-factor None is the derivative along the register k. A factor P that is a tuple is itself a product of
-derivatives. Apply P to the vector field f of the problem. The result is a vector field, and the factor is the
-derivative along this vector field."""
+"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. If the
+factor is None, the vector field is given by the register k. If the factor is a tuple P, then P is itself a
+product of derivatives. In this case, the vector field is P f, where f is the vector field of the problem."""
 
 Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return the words with ``order`` letters K (kick) and ``order`` letters D (drift) in which no suffix
-    contains more letters K than letters D.
+    """Return all words with ``order`` letters K (kick), ``order`` letters D (drift) and the following
+    property: no suffix of the word contains more letters K than letters D.
 
     >>> words(2)
     ('KKDD', 'KDKD')
@@ -70,8 +69,8 @@ def on_group(word: str) -> dict[Forest, int]:
 
 def on_vector_space(word: str) -> dict[Forest, int]:
     """Return the differential operator that a word denotes on a vector space. The letters of the word are K
-    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. Each forest has
-    the order of branches and of trees that :func:`unordered` returns.
+    (kick) and D (drift). The operator is a map from forests of rooted trees to coefficients. The branches and
+    trees of each forest are sorted by :func:`unordered`.
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_vector_space("KDKDKD").items()}
@@ -117,8 +116,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
     """Return a selection of the rooted trees with ``order`` vertices. For two-register (2N) schemes, the
-    elementary weights of the selected trees and of smaller trees determine the weights of all trees with
-    ``order`` vertices.
+    elementary weights of all trees with ``order`` vertices depend only on two sets of weights. These are the
+    weights of the selected trees and of all trees with fewer vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -193,8 +192,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D to a product of derivatives. The letter D denotes the derivative along the register
-    k. By the product rule, the result is a sum."""
+    """Apply the letter D to a product of derivatives by the product rule. The letter D denotes the derivative
+    along the register k."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -202,8 +201,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. The result is a sum with one term for each derivative
-    along the register k. In this term, the derivative along the vector field f replaces that derivative."""
+    """Apply the letter K to a product of derivatives by the product rule. In each term of the result, one
+    derivative along the register k is replaced by the derivative along the vector field f."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -213,9 +212,9 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Apply ``act`` inside the factors of a product of derivatives. ``act`` is :func:`_drift` or
-    :func:`_kick`. The result is a sum. In each term, ``act(P)`` replaces one factor P. Factors None are not
-    replaced."""
+    """Return a sum over the factors of a product of derivatives. In each summand, the function ``act`` is
+    applied to one factor. Factors equal to None have no summand. ``act`` is :func:`_drift` or
+    :func:`_kick`."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

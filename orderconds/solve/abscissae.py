@@ -10,16 +10,17 @@ m_i is defined by
 
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
-A method of order three satisfies sum_i b_i x_i z_i = 1/3 if x and z are chosen from the abscissae c, chat and
-m. This includes the choice x = z. Hence sum_i b_i (c_i - m_i)^2 = 1/3 - 2/3 + 1/3 = 0, and in the same way
-sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are therefore equal.
+Let each of x and z be one of the abscissae c, chat and m. A method of order three satisfies sum_i b_i x_i z_i
+= 1/3. Expand the square in sum_i b_i (c_i - m_i)^2. The value of this sum is 1/3 - 2/3 + 1/3 = 0. The sum
+with chat instead of c is also zero. If the weights are positive, all terms of these sums are zero, so the
+three abscissae are equal.
 
 Let a_ij be the coefficient of stage j in stage i. If the three abscissae are equal, the matrix of these
 coefficients satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j)
 for each column j. Equations of this form are called a transportation problem.
 
-The rows and the columns are the nodes of a graph. Each entry a_ij is an edge of the graph, which joins row i
-and column j. The equations are solved for the entries in a spanning tree of the graph.
+The rows and the columns are the nodes of a graph. Each entry a_ij is an edge that joins row i and column j. A
+spanning tree of this graph contains some of the entries. The equations are solved for these entries.
 """
 
 from __future__ import annotations
@@ -77,9 +78,10 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     equation sum_i b_i a_ij = b_j (1 - m_j). Here m_i are the abscissae and b_i are the weights. The formulas
     contain the abscissae, the weights and the remaining entries of A.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. The
-    free entries of A are the edges of a graph: a_ij joins row i and column j. If this graph does not connect
-    all rows and columns, the function raises :class:`~orderconds.errors.InputError`.
+    ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. All
+    other entries of A are free. Each free entry a_ij is an edge of a graph and joins row i and column j. If
+    this graph does not connect all rows and columns, the function raises
+    :class:`~orderconds.errors.InputError`.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -122,10 +124,10 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return the row and the column of an entry that is the only unknown in its row or column.
+    """Find an entry that is the only unknown in its row or column. Return a triple (row, column, by_row).
 
-    If a row has only one unknown, the function returns this unknown, and the third value is True. Otherwise
-    the function returns the only unknown of a column, and the third value is False.
+    Rows are tested first. If the entry is the only unknown in its row, ``by_row`` is True. If it is the only
+    unknown in its column, ``by_row`` is False.
     """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
@@ -143,19 +145,19 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i begins with the first ``leave[i]`` exponentials of ``update``. Further exponentials follow, which
-    are called the own exponentials of stage i (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the
+    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The following exponentials are
+    called the own exponentials of stage i (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the
     coefficients of stage j in the own exponentials of stage i.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    Each row i of ``own`` satisfies an equation, because stage i has the abscissa m_i. Each column j in the
-    first half of ``own`` satisfies the equation sum_i b_i (x_ij - x_ik) = C_j, where k = s + 1 - j. Here b_i
-    are the weights, and C_j is a term without entries of ``own``.
+    The abscissa m_i determines the sum of row i of ``own``. Each column j in the first half of ``own``
+    satisfies the equation sum_i b_i (x_ij - x_ik) = C_j, where k = s + 1 - j. Here b_i are the weights, and
+    C_j does not contain entries of ``own``.
 
     The function solves these equations for some entries of ``own``. It returns formulas for these entries and
-    for the terms C_j. In the formulas, y_J is the sum of row J of ``update``.
+    for C_j. In the formulas, y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -4,9 +4,9 @@ unknown coefficients.
 The file describes a method with a given number of stages. The coefficients of the method have names such as
 a21 and b1. The coefficients are evaluated in three kinds of arithmetic:
 
-- A trace records the operations as a program. The numerical search runs this program.
-- Residues modulo primes are used to compute the ranks of conditions.
-- Balls (intervals) are used to prove the order.
+- Traces record the operations as a program for the numerical search.
+- Residues modulo primes give the ranks of conditions.
+- Balls (intervals) prove the order.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: if True, a commutator-free method is replaced by a Runge-Kutta method before the order
-      conditions are evaluated. The two methods are equal on abelian groups.
+    - ``abelian``: if True, a Runge-Kutta method replaces the commutator-free method in the order conditions.
+      These two methods are equal on abelian groups.
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
@@ -53,7 +53,7 @@ class Ansatz:
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
         """Return the text of a tableau file in which the free coefficients have the given ``values``. The
-        lines ``head`` are inserted before the table [numbers], and the lines ``foot`` at the end of the file.
+        lines ``head`` precede the table [numbers]. The lines ``foot`` are added at the end of the file.
         """
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
@@ -68,7 +68,7 @@ class Ansatz:
         proof = Tableau.loads(self.text(places, foot=foot if self.free else ()), self.name).proof
         if proof is None:
             raise InputError(
-                "the constraints leave no coefficient free",
+                "the constraints leave no free coefficient",
                 where="constraints",
                 expected="at least one free coefficient",
             )
@@ -90,8 +90,8 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return the values of all coefficients whose names are in ``cells``, in the same order.
-        ``values`` contains the values of the free coefficients, as elements of ``ring``."""
+        """Return the values of the coefficients named in ``cells``, in the order of ``cells``. ``values``
+        contains the values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return [symbolic.number(name, ring, known) for name in self.cells]

@@ -47,24 +47,24 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Rounding units, tried in this order. The coefficients that the equations do not determine are rounded to
-multiples of a unit. A unit is used if there is a solution near the rounded coefficients, and if this solution
-is at most slightly worse than the given solution (:data:`WORSE`).
+"""Rounding units, tried in this order. Coefficients that the equations do not determine are rounded to
+multiples of a unit. A unit is used if this rounding leads to a solution with two properties. The solution
+satisfies the bound :data:`WORSE`, and no singular value of its Jacobian is near zero.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""Rounding units after a minimisation of the principal error. Finer units are unnecessary, because rounding
-hardly changes the error near a minimum."""
+"""These rounding units are used if the principal error was minimised. Finer units are unnecessary, because
+rounding hardly changes the error near a minimum."""
 
 DIGITS = 50
 """The number of decimal places of a rounded coefficient in the tableau file."""
 
 BITS = 1400
-"""The working precision of Newton's method in bits. Lattice reduction recognises numbers only
-if their precision is high."""
+"""The working precision of Newton's method in bits. Lattice reduction needs this high precision to recognise
+numbers."""
 
 WORSE = 1.5
-"""Rounding may increase the largest coefficient and the principal error by at most this factor."""
+"""Rounding must not increase the largest coefficient or the principal error by more than this factor."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,11 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return a proved solution near ``point``, including its tableau file. The argument ``point`` contains
-    values of the free coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
+    """Return a solution near ``point``, and prove its order.
+
+    ``point`` contains values of the free coefficients of the ansatz. ``name`` and ``source`` are entries of
+    the tableau file. ``minimised`` is true if the principal error was minimised. Raises NotProved if the
+    required order cannot be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -116,7 +119,7 @@ def _rounded_free(
     """Round the coefficients that the equations do not determine. Return three values: a solution with these
     rounded coefficients, a map from the index of each rounded coefficient to its value, and the indices of
     all other coefficients. The rounding units in ``steps`` are tried one after another. Raises NotProved if
-    no unit gives an acceptable solution."""
+    no unit can be used (:data:`STEPS`)."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -133,12 +136,12 @@ def _rounded_free(
         )
         if good and _regular(problem, tried, solved):
             return tried, values, solved
-    raise NotProved("rounding the free coefficients gives no nearby solution")
+    raise NotProved("rounding the undetermined coefficients gives no acceptable solution")
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve for the coefficients with the indices ``solved``. All other coefficients keep their values in
-    ``start``. Return the solution and the norm of the residual."""
+    """Solve the equations of the problem for the coefficients with the indices ``solved``. All other
+    coefficients keep their values in ``start``. Return the solution and the norm of the residual."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -153,8 +156,9 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return a tuple that contains the largest absolute value of a coefficient. If the order of the problem
-    is at most :data:`CHEAP`, the tuple also contains the principal error."""
+    """Return a tuple of one or two numbers. The first number is the largest absolute value of the
+    coefficients of the method. If the order is at most :data:`CHEAP`, the second number is the principal
+    error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -173,8 +177,8 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 def determined(slopes: Floats) -> list[int]:
     """Return the indices of the pivot columns of the Jacobian ``slopes``, in ascending order. The pivots are
-    chosen by Gaussian elimination with complete pivoting. The equations can be solved for the unknowns that
-    belong to the pivot columns.
+    chosen by Gaussian elimination with complete pivoting. Column j contains the derivatives with respect to
+    unknown j. The equations can be solved for the unknowns of the pivot columns.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -241,8 +245,8 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return the square roots of rational numbers that occur in the ansatz. The result maps the text of each
-    root to its value."""
+    """Find the square roots in the ansatz whose radicands are rational numbers. Return a map from the text of
+    each square root to its value."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -320,7 +324,7 @@ def _signed(x: arb, places: int) -> str:
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the solution with a tableau file that lists all proved orders and properties. Raises NotProved
+    """Return the solution with a tableau file that lists the proved orders and properties. Raises NotProved
     if the required order is not proved."""
     if not exact:
         certify(tableau)
@@ -348,17 +352,18 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # The file can contain each coefficient in full, or names for repeated numbers. Use the shorter text.
+        # Names can replace repeated numbers in the file. Use the shorter of the texts with and without names.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, wanted_family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None if ``order`` is
-    above the limit ``principal_error_limit`` of the family, or if the family does not accept the tableau.
+    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None in two cases:
+    ``order`` exceeds the limit ``principal_error_limit`` of the family, or the family does not accept the
+    tableau.
 
-    The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
+    The method :meth:`orderconds.families.Family.principal_residuals` of the family computes the residuals.
 
     >>> from orderconds.checking import read
     >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)
