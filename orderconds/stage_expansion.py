@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The largest estimated number of terms for which the expansion is computed. With this number of
-terms, the computation needs about 500 MB of memory."""
+"""If an expansion has more terms than this number by estimate, it is not computed. The computation of
+this number of terms needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms of an expansion. With this number of terms, the text of the conditions has
-about 20 MB, and writing the text needs 1.5 GB of memory."""
+"""The largest number of terms of all expanded conditions together. The text of this number of terms has
+about 20 MB. Writing the text needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
@@ -35,9 +35,11 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     stages.
 
     If ``explicit`` is true, only the strictly lower triangular entries of A are variables. If ``explicit`` is
-    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if the number of
-    stages does not determine the coefficients of the family, or if there are too many terms
-    (:data:`MAX_COMPUTED`, :data:`MAX_TERMS`).
+    false, all entries are variables.
+
+    Raises :class:`~orderconds.errors.InputError` if there are too many terms (:data:`MAX_COMPUTED`,
+    :data:`MAX_TERMS`). The same error is raised if methods of the family with ``stages`` stages can have
+    different sets of coefficients.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -64,8 +66,9 @@ def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> in
     """Return an estimate of the total number of terms of the expanded conditions.
 
     In the expanded condition of a tree, each vertex has a stage index. For implicit methods, every index has
-    ``stages`` values. For explicit methods, the index decreases along each edge from the root. Each
-    vertex except the root is therefore counted with only (stages - 1)/2 values.
+    ``stages`` values. For explicit methods, the index decreases along each edge from the root. On
+    average, (stages - 1)/2 stages precede a stage. The estimate therefore assumes (stages - 1)/2 values of
+    each index except that of the root.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)
@@ -85,12 +88,11 @@ def _refuse_more_terms(derivation: Derivation, terms: int, most: int) -> None:
 def polynomials(
     derivation: Derivation, stages: int, *, explicit: bool = False
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
-    """Return a polynomial ring, its variables, and the left-hand sides of the conditions as elements of the
-    ring.
+    """Return a polynomial ring, its variables, and the left-hand sides of the conditions as polynomials.
 
-    If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials. Raises
-    :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
-    the family.
+    If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials, which can
+    have negative exponents. Raises :class:`~orderconds.errors.InputError` if methods of the family with
+    ``stages`` stages can have different sets of coefficients.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

@@ -28,8 +28,8 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Create problems by :func:`find_problem`, which caches each problem with
-    its compiled programs.
+    """The equations of one search. Create problems with :func:`find_problem`. This function caches the
+    problems and their compiled programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -48,22 +48,22 @@ class Problem:
 
     @cached_property
     def family(self) -> Family:
-        """Return the family whose conditions are solved."""
+        """Return the family whose order conditions the search solves."""
         return families.get(self.ansatz.family)
 
     @cached_property
     def measured(self) -> Family:
-        """Return the family whose conditions define the principal error."""
+        """Return the family in which the principal error is computed. In a search for low-storage schemes,
+        this family can differ from :attr:`family`."""
         return families.get(self.ansatz.measured or self.ansatz.family)
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return order conditions that imply the required order for the methods of the ansatz.
+        """Return order conditions that are sufficient for the required order.
 
         A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
-        Theorem II.3.2). If p is even and a symmetric method has at least order p - 1, the method therefore
-        has at least order p. In a search for symmetric methods of even order p, the conditions of order p
-        are omitted.
+        Theorem II.3.2). If p is even, a symmetric method of order at least p - 1 therefore has order at least
+        p. In a search for symmetric methods of even order p, the conditions of order p are omitted.
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -89,9 +89,9 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True and
-        ``method`` is commutator-free, this is the Runge-Kutta tableau to which ``method`` reduces on an
-        abelian group. In all other cases, it is ``method`` itself."""
+        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True, a
+        commutator-free method is replaced by the Runge-Kutta tableau to which the method reduces on an
+        abelian group. All other methods are unchanged."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -99,7 +99,7 @@ class Problem:
     @cached_property
     def error(self) -> Tape:
         """Return a program that evaluates the residuals of the order conditions of order p + 1, where p is
-        the order of the search. The 2-norm of these residuals is the principal error."""
+        the required order. The 2-norm of these residuals is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
         if self.measured.label() == self.family.label():
@@ -127,8 +127,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices of the coefficients that must be positive, as positions in the outputs of the
-        program :attr:`coefficients`. In the option ``positive``, the name b denotes all weights."""
+        """Return the indices of the outputs of the program :attr:`coefficients` that must be positive. The
+        name b in the option ``positive`` denotes all weights."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -169,8 +169,7 @@ class Problem:
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, the starting points are near a point with equal weights and zeros for all other
-        coefficients."""
+        None, the weights at the centre are equal and all other coefficients are zero."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -184,7 +183,7 @@ class Problem:
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
     """Return the equations of a search for methods of the given order in the family ``label``. ``structure``
     is the name of the parametrisation of the coefficients. The eight most recently used problems are cached.
-    For a cached problem, the function returns the same object again.
+    If a problem is cached, the function returns the cached object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

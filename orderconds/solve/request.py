@@ -37,11 +37,12 @@ class SearchResult:
     """The result of a search. Its truth value is True if a method was found.
 
     - ``tableau``: the method, or None
-    - ``certificate``: ``exact`` or ``ball``, the kind of proof of the order; ``none`` if no method was found
-    - ``error_norm``: the principal error of the method
+    - ``certificate``: ``exact`` if the order is proved in exact arithmetic, ``ball`` if it is proved in
+      interval arithmetic, ``none`` if no method was found
+    - ``error_norm``: the principal error of the method, or None if it was not computed
     - ``impossible``: a proof that no method exists, or None
     - ``best_residual``: the least residual norm of all random starts
-    - ``tried``: one line of text about each parametrisation of the coefficients that was tried
+    - ``tried``: one line of text about each parametrisation of the coefficients in the search
     - ``command``: the command line that repeats the search
     """
 
@@ -55,8 +56,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Convert the outcome of a search to a SearchResult. ``request`` contains the options of the
-        search."""
+        """Return the result of a search with the options ``request``."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),
@@ -111,13 +111,13 @@ def solve(
     """Find a method of ``family`` with the given number of stages and the given order, and prove the order.
 
     The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
-    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
+    ``report`` receives lines about the progress. Raises InputError if constraints contradict each other.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs trees up to this order.
+    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs these trees.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
@@ -170,8 +170,7 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Convert the argument ``size`` of :func:`solve` to a fraction. None means no bound, and is returned
-    unchanged."""
+    """Convert the argument ``size`` of :func:`solve` to a fraction. If there is no bound, return None."""
     if size is None:
         return None
     try:

@@ -1,10 +1,10 @@
-"""Search from many random starting points, in batches. The batches run in one process, in several processes,
-or on a cluster.
+"""The search for methods from many random starting points, in batches. The batches run in one process, in
+several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch. Batches are
 processed in the order of their numbers. The result of a search therefore depends neither on the number of
-processes nor on interruptions. A worker process receives only the options of the search, and compiles the
-equations itself.
+processes nor on interruptions. Each worker process receives the options of the search and compiles the
+equations from these options.
 """
 
 from __future__ import annotations
@@ -35,13 +35,12 @@ POLISHED = 1e-11
 """A point counts as a solution if the residual norm is below this number."""
 
 KEPT = 4
-"""Each batch returns at most this number of solutions, in ascending order of the score. The minimisation of
-the principal error starts only from these solutions.
-"""
+"""The largest number of solutions that a batch returns. If the search minimises the principal error, each
+batch starts at most this number of minimisations."""
 
 
 CHEAP = 4
-"""The highest order for which the principal error of every solution is computed."""
+"""If the required order is at most this number, the principal error of every solution is computed."""
 
 
 SINGULAR = 1e6
@@ -77,10 +76,10 @@ class Batch:
     """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
     coefficients), in ascending order of the score.
 
-    The score is the principal error if the search minimises it, or if the order of the search is at most
-    :data:`CHEAP`. In all other cases, the score is the largest absolute value of a coefficient. The score of
-    a singular solution is increased by :data:`SINGULAR`. ``best`` is the least residual norm of all starts of
-    the batch.
+    If the search minimises the principal error, the score is the principal error. The same holds for a
+    required order of at most :data:`CHEAP`. In all other searches, the score is the largest absolute value of
+    a coefficient. :data:`SINGULAR` is added to the score of a singular solution. ``best`` is the least
+    residual norm of all starts of the batch.
     """
 
     number: int
@@ -116,8 +115,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Drop singular solutions if the batch contains regular solutions. If all solutions are singular, keep
-    # them and add SINGULAR to their scores. A proof with exact coefficients may still be possible.
+    # If the batch contains regular solutions, drop all singular solutions. If all solutions are singular,
+    # keep them and add SINGULAR to their scores: their order can sometimes be proved in exact arithmetic.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -129,8 +128,9 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution. If the order of the search is at most :data:`CHEAP`, the score is the
-    principal error. Otherwise, the score is the largest absolute value of a coefficient."""
+    """Return the score of a regular solution before the minimisation. If the required order is at most
+    :data:`CHEAP`, the score is the principal error. For higher orders, the score is the largest absolute
+    value of a coefficient."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -138,15 +138,14 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """The checkpoint file with the finished batches. The file is written atomically. If ``path`` is None, no
-    file is written."""
+    """The file in which a search saves the finished batches. If ``path`` is None, no file is written."""
 
     path: Path | None
     search: Search
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search, if the file exists. Raises InputError if the file is
+        """If the checkpoint file exists, read the finished batches. Raises InputError if the file is
         unreadable, is not a checkpoint, or belongs to another search."""
         if self.path is None or not self.path.exists():
             return
@@ -213,8 +212,8 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Batches in the checkpoint are not computed
-    again. Each new batch is added to the checkpoint.
+    """Yield the batches 0, ..., ``count`` - 1 in ascending order. A batch is computed only if the
+    checkpoint does not contain it. Each new batch is added to the checkpoint.
 
     If ``cluster`` is the address of a dask cluster, all new batches are computed on the cluster. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.

@@ -19,17 +19,17 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default numbers of random starts for each parametrisation of the coefficients. MINIMISED is used if the
-search minimises the principal error. Otherwise, PLAIN is used."""
+"""The default numbers of random starts for each parametrisation of the coefficients. A search that minimises
+the principal error uses MINIMISED. All other searches use PLAIN."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
-    ``best`` is the least residual norm of all random starts. The search tries parametrisations of the
-    coefficients, one after another. ``tried`` contains one line of text about each parametrisation.
-    ``structure`` is the name of the parametrisation that was tried last.
+    ``best`` is the least residual norm of all random starts. A search tries one or several
+    parametrisations of the coefficients. ``tried`` contains one line of text about each parametrisation.
+    ``structure`` is the name of the last parametrisation.
     """
 
     solution: Solution | None = None
@@ -81,7 +81,7 @@ class Order:
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
     """Run a search. The function ``report`` is called with lines of text about the progress.
 
-    Raises :class:`~orderconds.errors.InputError` for contradictory options.
+    Raises :class:`~orderconds.errors.InputError` if the options contradict each other.
 
     >>> outcome = solve(Order("cg", 3, Spec(stages=3, explicit=True)))
     >>> outcome.solution.certificate
@@ -103,7 +103,7 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 def _applicable(order: Order) -> list[str]:
     """Return the names of the parametrisations that the options of the search allow. Raises InputError if the
-    options allow no parametrisation, or if they contradict each other."""
+    options allow no parametrisation, or if the options contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -161,11 +161,11 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return a solution whose order is proved, and an error message.
+    """Return a solution with a proved order, and the message of the last failed proof.
 
-    The function tries to prove the order of the eight solutions with the lowest scores, and returns the first
-    solution for which a proof succeeds. If all proofs fail, the returned solution is None. The message is
-    that of the last failed proof. If no proof fails, the message is the argument ``refused``.
+    The function considers the eight solutions with the lowest scores, and returns the first solution whose
+    order can be proved. If all proofs fail, the returned solution is None. If no proof fails, the message is
+    the argument ``refused``.
     """
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:

@@ -1,7 +1,7 @@
 """A recorded program, compiled for numpy. The program computes values and Jacobians at many points at once.
 
-The operations are sorted into levels. The operations of a level depend only on earlier levels, and a few
-numpy calls evaluate all of them. The Jacobian is computed by forward differentiation.
+The operations are sorted into levels. The operations of a level depend only on earlier levels. A few numpy
+calls evaluate all operations of a level. The Jacobian is computed by forward differentiation.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind that do not depend on each other. The array of values has one row for each
-    operation. ``left`` and ``right`` contain the indices of the rows of the first and second operands. Rows
-    ``start`` to ``stop`` - 1 contain the results."""
+    """Operations of one kind that do not depend on each other. All results of the program are rows of one
+    array. ``left`` and ``right`` contain the row numbers of the first and the second operands. Rows ``start``
+    to ``stop`` - 1 contain the results of these operations."""
 
     kind: int
     start: int
@@ -34,15 +34,14 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """The degree n of each n-th root, if ``kind`` is ROOT. For other kinds, the array is not used."""
+    """The degrees n of the n-th roots. Only operations of the kind ROOT use this array."""
 
 
 class Tape:
-    """A recorded program that computes outputs from inputs, in double precision.
+    """A recorded program that computes outputs from ``width`` inputs, in double precision.
 
-    All ``outputs`` are elements of the same ring :class:`~orderconds.ring.traces.Traces`. The arithmetic of
-    this ring records the operations of the program.
-    ``width`` is the number of inputs.
+    All ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`. This ring records each
+    arithmetic operation. The recorded operations are the program.
 
     >>> from orderconds.ring.traces import Traces
     >>> R = Traces(2)
@@ -57,8 +56,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # An output can be a constant that is not yet an operation of the program. The method ``placed``
-        # records such a constant as an operation.
+        # If an output is a constant, ``placed`` records the constant as an operation of the program.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -99,8 +97,8 @@ class Tape:
         return np.ascontiguousarray(self._forward(points)[self._outputs].T)
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the outputs at ``points``, and their derivatives. The derivative at index [k, i, j] is that
-        of output i with respect to input j, at point k."""
+        """Return the outputs at ``points``, and their derivatives. Entry [k, i, j] of the second array is the
+        derivative of output i with respect to input j at point k."""
         part = max(1, MOST_SLOPES // max(1, self.length * self.width))
         if len(points) <= part:
             return self._jacobians(points)
@@ -141,8 +139,9 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of the required operations, sorted by level and kind. An operation is required if it
-    is an input, or if an output in ``wanted`` depends on it."""
+    """Return the indices of the required operations, sorted by level and kind. All inputs are required,
+    and all operations that the outputs ``wanted`` need. Inputs and constants have level 0. Every other
+    operation is one level above its highest operand."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -1,9 +1,9 @@
 """Lie algebra elements as text in tableau files, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
 
-The number i denotes the vector field at node i of a quadrature formula. A name denotes an element that the
-file defines earlier. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``. The last
-factor of a product acts first. Tableau files may contain products such as ``S*S`` only for quadratic Lie
-groups, where the Cayley map replaces the exponential.
+The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
+definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
+The last factor of a product acts first. Products such as ``S*S`` are possible only on quadratic Lie groups,
+with the Cayley map in place of the exponential.
 """
 
 from __future__ import annotations
@@ -51,11 +51,13 @@ class Product(Struct, frozen=True):
 Term = int | str | Bracket | Product
 """A node, the name of an element, a bracket or a product. Nodes are counted from 0."""
 Combination = tuple[tuple[Term, Element], ...]
-"""A linear combination: pairs of a term and its coefficient."""
+"""A linear combination of terms, as pairs (term, coefficient)."""
 
 
 def parse(text: str, where: str) -> Term:
-    """Parse a term. Raises :class:`TableauError`, whose message contains ``where``, if the text is malformed.
+    """Parse a term. The text counts nodes from 1, and the result counts nodes from 0.
+
+    Raises :class:`TableauError` if the text is malformed. The error message contains ``where``.
 
     >>> parse("[2,1]", "exponents")
     Bracket(left=1, right=0)
@@ -97,7 +99,7 @@ def leaves(term: Term) -> Iterator[int | str]:
 
 
 def has_product(term: Term) -> bool:
-    """Return True if a term contains a product, also inside brackets.
+    """Return True if a term is a product, or is a bracket that contains a product.
 
     >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
     (False, True)
@@ -108,10 +110,10 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to the least and the greatest degree in its expansion.
+    """Return a function that maps a term to the least and the greatest degree in the expansion of the term.
 
     The expansion of a term is a sum of products of the vector fields at the nodes. The degree of a product is
-    the number of its factors. ``elements`` maps each name that a term can contain to a linear combination.
+    the number of its factors. ``elements`` contains the definition of each name in the terms.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -138,7 +140,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty combination has no degrees. By convention, the result is then (1, 1).
+    # For an empty combination, the result is (1, 1) by convention.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

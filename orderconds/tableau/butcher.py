@@ -26,17 +26,18 @@ SPACED = r" \\[2pt] "
 rows would touch."""
 
 NARROWER = r"\!"
-"""LaTeX code of a negative space. In a wide array, one or two such spaces are placed on both sides of each
-entry."""
+"""LaTeX code of a negative space. In a wide array, each entry has a negative space on both sides, or two
+negative spaces if one is not enough."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return the LaTeX code of the Butcher array. For methods without a Butcher array, return equations.
+    r"""Return a method in LaTeX, as a Butcher array or as equations.
 
     The array fits in a column of a two-column article. In a wide array, the space between the columns is
-    reduced. If the array is still too wide, the function returns equations instead of the array.
+    reduced. The function returns equations if the method has no Butcher array, or if the array is too large.
+    The function also returns equations if a coefficient contains a name, as in ``1 - 2*g``.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -48,8 +49,8 @@ def tableau_latex(tableau: Tableau) -> str:
 
 def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> str | None:
     """Return a Butcher array in LaTeX. A horizontal line separates the rows of the stages (``above``) from
-    the rows of the weights (``below``). Return None if the array is too wide for a column of an article, or
-    if a coefficient contains a symbol for a number, as in ``1 - 2*g``."""
+    the rows of the weights (``below``). Return None if the array is too wide for a column of an article.
+    Also return None if a coefficient contains a name, as in ``1 - 2*g``."""
     rows = [*above, *below]
     if any(has_name(x) for row in rows for x in row):
         return None
@@ -69,8 +70,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table. For a method without a Butcher array, or with more than
-    :data:`WIDEST` stages, return the ``repr`` of the tableau and equations in LaTeX.
+    """Return the Butcher array as an HTML table. If the method has no Butcher array, return the ``repr`` of
+    the tableau and equations in LaTeX. Do the same if the method has more than :data:`WIDEST` stages.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")
@@ -101,9 +102,9 @@ def _html(text: str) -> str:
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
     """Return the entries of a Butcher array as text, in two lists of rows.
 
-    The first list contains a row for each stage i: the node c_i, followed by the coefficients a_ij. Zeros at
-    the end of such a row are blank. The second list contains the rows of weights. Return None for a method
-    without a Butcher array, or with more than :data:`WIDEST` stages.
+    In the first list, row i contains the node c_i and the coefficients a_ij of stage i. Zeros at the end of
+    these rows are blank. The second list contains the rows of weights. Return None if the method has no
+    Butcher array, or has more than :data:`WIDEST` stages.
     """
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:

@@ -8,7 +8,7 @@ from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau.record import Tableau
 
 SHORT = Balls(64)
-"""A ring of balls with 64 bits. Coefficients are rounded in this ring before they are printed."""
+"""Interval arithmetic with 64 bits. Interval coefficients are rounded to this precision before printing."""
 
 DIGITS = 24
 """The largest length of a decimal that is printed unchanged. A longer decimal is shortened."""
@@ -19,8 +19,8 @@ def butcher_text(tableau: Tableau) -> list[str]:
     and have about twenty digits. Embedded weights are not printed.
 
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
-    spaces. In the tableau of a composition method, the basic method is the implicit midpoint rule. In a
-    composition of a method and its adjoint, the two methods are the explicit and the implicit Euler method.
+    spaces. For a composition method, the basic method is the implicit midpoint rule. For a composition of
+    a method and its adjoint, the method is explicit Euler, and the adjoint is implicit Euler.
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 
     >>> from orderconds.tableau import find
@@ -46,8 +46,8 @@ def butcher_text(tableau: Tableau) -> list[str]:
 
 
 def entry(tableau: Tableau, x: Element) -> str:
-    """Return the text of a coefficient. Exact coefficients are written in full. The result for a ball (an
-    interval) is a decimal that ends with "~".
+    """Return the text of a coefficient. Exact coefficients are written in full. An interval
+    coefficient is printed as a decimal that ends with "~".
 
     >>> from orderconds.tableau import find
     >>> yoshida = Tableau.load(find("yoshida6"))

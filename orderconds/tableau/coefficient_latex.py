@@ -64,13 +64,13 @@ def _split_sign(x: Expression) -> tuple[str, Expression]:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Return True if x is a chain of operations that ends with a multiplication, such as ``a / b * c``."""
+    """Return True if the last operation of x is a multiplication, as in ``a / b * c``."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Return a copy of an expression. Each quotient of exact numbers, such as 1/2, is replaced by one
-    constant. Each negated exact number, such as -1, is also replaced by one constant.
+    """Return an equal expression with fewer operations. An exact fraction at the beginning of a product
+    becomes one constant. A negated exact number, such as -1, also becomes one constant.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))
