@@ -1,5 +1,5 @@
-"""Elimination of linear constraints from the coefficients of an ansatz. The results are texts for a
-tableau file."""
+"""Elimination of linear constraints from the coefficients of an ansatz, and the texts of the coefficients
+in a tableau file."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ these coefficients."""
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Eliminate coefficients. The argument ``constraints`` and the option ``--fix`` give the constraints.
+    """Impose ``constraints`` and the constraints of the option ``--fix`` on the coefficients ``names``.
 
     A constraint of ``--fix`` may contain names of nodes, such as c2. Raises InputError if a constraint of
-    ``--fix`` contains an unknown name.
+    ``--fix`` contains an unknown name, or if constraints contradict each other.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -47,16 +47,16 @@ def eliminated(
 class Cells:
     """The texts of the coefficients in a tableau file, after elimination of the linear constraints.
 
-    ``extra`` maps names to formulas that do not result from this elimination. Examples are the formulas of
-    the abscissae m1, m2, ... and of coefficients that depend non-linearly on other coefficients.
+    ``extra`` maps names to additional formulas. Examples are formulas for the abscissae m1, m2, ..., and for
+    coefficients that depend non-linearly on other coefficients.
     """
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the text of a coefficient in a matrix of the tableau file: its value if the coefficient is a
-        constant, and its name otherwise."""
+        """Return the text of a coefficient in a matrix of the tableau file. The text of a constant is its
+        value. The text of each other coefficient is its name."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name

@@ -1,14 +1,15 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The conditions are written as polynomials that must be zero. A Groebner basis is computed for conditions that
-contain only a few coefficients. If the basis contains 1, no real or complex method satisfies the conditions.
-If the basis contains a polynomial in one coefficient, Sturm's theorem counts its real roots. If it has no
-real root, no real method satisfies the conditions.
+The conditions are written as polynomials that must be zero. A Groebner basis is computed for some of these
+polynomials, which together contain at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no
+real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
+Sturm's theorem counts the real roots of this polynomial. If there is no real root, no real method satisfies
+the conditions.
 
-The formulas of some families divide by the weights b_i. The weights are then nonzero, and the root zero of a
-polynomial in b_i is ignored.
+The formulas of some families divide by the weights b_i. In these families, no weight is zero. The root zero
+of a polynomial in b_i is therefore ignored.
 
-The proof expresses 1, or the polynomial without real roots, as a combination of the conditions. The
+The proof expresses 1, or the polynomial in one coefficient, as a combination of the conditions. The
 combination is verified by multiplication of polynomials.
 """
 
@@ -32,18 +33,18 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""An order condition and a polynomial. The polynomial is the left-hand side of the condition minus its
-right-hand side."""
+"""An order condition and a polynomial. The polynomial is the numerator of the difference between the
+left-hand side and the right-hand side."""
 
 MAX_VARIABLES = 3
-"""Only conditions that involve at most this number of coefficients are used."""
+"""Elimination uses only conditions that contain at most MAX_VARIABLES coefficients."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Elimination is tried for at most MAX_UNKNOWNS unknowns, with conditions up to order MAX_ORDER. Beyond these
-limits, the polynomials have too many terms."""
+"""Elimination is tried for at most MAX_UNKNOWNS unknowns. Only conditions up to order MAX_ORDER are used.
+These limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
-"""The multipliers in a proof (:class:`Infeasible`) have a degree below this number."""
+"""Multipliers in a proof (:class:`Infeasible`) have at most the degree MAX_DEGREE - 1."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +56,11 @@ class Infeasible:
 
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
-    - If ``weight`` is the name of a weight, zero is the only real solution for this weight. The formulas of
-      the family divide by the weight, so it cannot be zero.
+    - If ``weight`` is the name of a weight, zero is the only real solution of the equation. The formulas of
+      the family divide by this weight. Therefore, the weight cannot be zero.
 
-    Entry k of ``equations`` is the left-hand side of condition k minus its right-hand side, multiplied by a
-    monomial that removes all denominators.
+    Entry k of ``equations`` is the left-hand side of condition k minus the right-hand side. A monomial factor
+    removes all denominators.
     """
 
     variables: tuple[str, ...]
@@ -108,8 +109,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # For symplectic methods, it suffices to consider nonzero weights. A stage with weight zero can be
-    # replaced by a copy of another stage. The weight of this other stage is then divided equally between the
-    # stage and its copy.
+    # replaced by a copy of a stage with nonzero weight. Each of the two equal stages receives half of this
+    # weight.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -120,7 +121,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
         ArithmeticError,
         TypeError,
         ValueError,
-    ):  # The residuals are not Laurent polynomials, so elimination is impossible.
+    ):  # Elimination requires residuals that are Laurent polynomials.
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
@@ -140,8 +141,8 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozenset[str]:
     """Return the names of the free coefficients that cannot be zero.
 
-    These are the weights by which the formulas of the family divide. A coefficient of an exponential of a
-    commutator-free method is not a weight, because a weight is the sum of several of these coefficients.
+    These are the weights by which the formulas of the family divide. In a commutator-free method, a weight
+    may be the sum of several free coefficients. Each of these coefficients can be zero.
     """
     if not problem.family.needs_nonzero_weights:
         return frozenset()
@@ -154,7 +155,7 @@ def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozen
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
-    """Return the numerator of ``x`` as a polynomial. The numerator vanishes wherever ``x`` vanishes."""
+    """Return the numerator of ``x`` as a polynomial. The numerator is zero wherever ``x`` is zero."""
     numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 
@@ -166,8 +167,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield small sets of variables. With each set, yield the list of all conditions that contain no other
-    variables. A set has at most :data:`MAX_VARIABLES` variables. Small sets precede large sets."""
+    """Yield sets of at most :data:`MAX_VARIABLES` variables, in ascending order of size. With each set, yield
+    the conditions that contain only variables of the set."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -179,12 +180,12 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Return a polynomial in the ideal that ``members`` generate, and a text. Return None if no suitable
-    polynomial is found.
+    """Return a polynomial in the ideal that ``members`` generate, and the name of a weight. Return None if no
+    suitable polynomial is found.
 
-    Two kinds of polynomials are suitable. A polynomial without real roots is returned with an empty text. If
-    the formulas of the family divide by the weights b_i, zero may be a root of a polynomial in b_i. The name
-    of b_i is returned with such a polynomial.
+    A polynomial without real roots is suitable. It is returned with an empty name. In some families, a weight
+    b_i cannot be zero. In these families, a polynomial in b_i is also suitable if zero is the only real root.
+    This polynomial is returned with the name of b_i.
     """
     import sympy
 
@@ -237,10 +238,9 @@ def _certificate(
     weight: str,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a proof that the equations in ``members`` imply the equation ``consequence`` = 0. The proof
-    contains polynomials, called multipliers. Each equation is multiplied by its multiplier, and the sum of
-    the products is ``consequence``. Return None if multipliers of a degree below :data:`MAX_DEGREE` do not
-    suffice."""
+    """Return a proof that the conditions in ``members`` imply the equation ``consequence`` = 0. The proof
+    contains a multiplier for each condition (:class:`Infeasible`). Return None if no multipliers with a
+    degree below :data:`MAX_DEGREE` are found."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:
@@ -266,9 +266,9 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return a multiplier for each polynomial in ``members``. A multiplier is a polynomial of degree at most
-    ``degree``. If each member is multiplied by its multiplier, the sum of the products is ``consequence``.
-    Return None if there are no such multipliers."""
+    """Return a multiplier for each polynomial in ``members``. The sum of all products of a member and its
+    multiplier is ``consequence``. The multipliers are polynomials of at most degree ``degree``. Return None
+    if these multipliers do not exist."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

@@ -2,20 +2,22 @@
 
 The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. Its
 weights are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p, where i is the number of the stage.
-Let t be a tree with |t| nodes and the density gamma(t). The elementary weight of t is sum_i b_i Phi_i(t). The
-extension has order q if the following equations hold for all trees t with at most q nodes:
+Let t be a tree with |t| nodes and the density gamma(t). The elementary weight of t is sum_i b_i Phi_i(t),
+where Phi_i(t) depends only on the matrix A. The extension has order q if the following equations hold for all
+trees t with at most q nodes:
 
 - sum_i beta_{p,i} Phi_i(t) = 1/gamma(t) for p = |t|
 - sum_i beta_{p,i} Phi_i(t) = 0 for all other p
 
-For each p, these equations are a linear system. The solution of least norm is used.
+For each p, these equations are a linear system for the coefficients of theta^p. The solution of least norm is
+used.
 
-If the first stage is the initial value, the coefficients of theta are chosen differently: beta_{1,1} = 1, and
-beta_{1,i} = 0 for i > 1. With this choice, the derivative at theta = 0 is exact.
+If the first stage is the initial value, another solution is used for p = 1: beta_{1,1} = 1, and
+beta_{1,i} = 0 for i > 1. With this solution, the derivative at theta = 0 is exact.
 
-Finally, the coefficients of the highest one or two powers of theta are changed such that b_i(1) = b_i. The
-derivative at theta = 1 becomes exact, too, if q > 1, the first stage is the initial value, and the last stage
-is the final value.
+Finally, the coefficients of the highest power of theta are changed such that b_i(1) = b_i. Suppose that
+q > 1, the first stage is the initial value, and the last stage is the final value. Then the coefficients of
+the two highest powers are changed, and the derivative at theta = 1 is exact, too.
 """
 
 from __future__ import annotations
@@ -80,9 +82,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return an extension of order q, or None if there is no such extension. The first row of the result
-    contains the coefficients of theta in the weights b_i(theta). The second row contains the coefficients of
-    theta^2, and so on."""
+    """Return an extension of order q, or None if there is no such extension. Row p of the result
+    contains the coefficients of theta^p in the weights b_i(theta), for p = 1, 2, ...."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
     conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]

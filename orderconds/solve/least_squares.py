@@ -1,8 +1,8 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
 The damping parameter is the norm of the residual, multiplied by a factor. The factor is reduced after each
-successful step. With such a damping parameter, the method converges quadratically near a solution, even if
-the solution is not isolated (Yamashita and Fukushima 2001).
+successful step. A damping parameter proportional to this norm gives quadratic convergence near a solution
+under a local error bound, even if the solution is not isolated (Fan and Yuan 2005).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""A system of m equations. The argument is an array of shape (k, n), which contains k points with n
-coordinates. The function returns the residuals at these points, an array of shape (k, m), and the Jacobians,
-an array of shape (k, m, n)."""
+"""A function that evaluates m equations at k points with n coordinates. The points are an array of shape
+(k, n). The function returns the residuals, an array of shape (k, m), and the Jacobians, an array of shape
+(k, m, n)."""
 
 SOLVED = 1e-13
 """A system counts as solved if the norm of the residual is at most this number. The number is at the level of

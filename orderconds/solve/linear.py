@@ -188,8 +188,8 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient, such as a21. If an index has two digits or there are more than two
-    indices, the indices are joined by ``_``, as in a10_1.
+    """Return the name of a coefficient. One or two indices below 10 are not separated, as in a21. Otherwise,
+    the indices are separated by ``_``, as in a10_1.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')

@@ -79,13 +79,12 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return formulas for entries of A that make the method symplectic. For i < j, the formula solves the
-    condition b_i a_ij + b_j a_ji = b_i b_j for one of the entries a_ij and a_ji.
+    """Return formulas for entries of A that make the method symplectic. The method is symplectic if
+    b_i a_ij + b_j a_ji = b_i b_j for all i and j. For i < j, this condition is solved for a_ij or a_ji.
 
-    If the method is symmetric, some formulas are omitted. Let s be the number of stages. The condition for
-    the indices (i, j) is equivalent to the condition for the mirrored indices (s + 1 - j, s + 1 - i). Only
-    one of these conditions is solved. If the mirrored indices are again (i, j), the condition is always
-    satisfied.
+    A symmetric method needs fewer formulas. Let s be the number of stages. The condition for (i, j) is
+    equivalent to the condition for the mirrored indices (s + 1 - j, s + 1 - i). Only one of the two
+    conditions is solved. If the mirrored indices are (i, j) itself, the symmetry implies the condition.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -102,8 +101,8 @@ def _symplectic(
                 raise InputError(
                     f"the constraints fix both {A[i][j]} and {A[j][i]}",
                     where="constraints",
-                    expected="constraints that fix at most one of these entries, because in a symplectic "
-                    "method each of them determines the other",
+                    expected="constraints that fix at most one of the two entries; "
+                    "symplecticity determines the other entry",
                 )
             row, column = chosen
             weight, other = cells.written(b[column]), cells.written(A[column][row])
@@ -187,8 +186,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. With these coefficients, the abscissae c_i, chat_i
-    and m_i of stage i are equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of the stages. The formulas make the three
+    abscissae of each stage equal (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -221,7 +220,7 @@ def _gauss(s: int) -> dict[str, str]:
 
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
-    """Return the constraints that a method has the same sums of coefficients as a Gauss method.
+    """Return constraints on sums of coefficients. Each sum is equal to a coefficient of a Gauss method.
 
     Let a_ij and b_j be the coefficients of the Gauss method with the same number of stages. In the
     exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the update,
@@ -240,8 +239,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. With these coefficients, the abscissae
-    c_i, chat_i and m_i of stage i are equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of a symmetric method. The formulas make the three
+    abscissae of each stage equal (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -299,8 +298,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves a constraint for its last coefficient in ``order``. The middle step size is the last
-    # element of ``order``, so the constraint on the sum determines this step size.
+    # Elimination solves each constraint for the coefficient that is last in ``order``. The last element of
+    # ``order`` is the middle step size. The constraint ``total`` therefore determines the middle step size.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -318,8 +317,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splitting methods for a vector field T + V. The methods begin and end with a flow
-    of T.
+    """Return the ansatz of splitting methods. A method composes flows of two vector fields T and V. The first
+    and the last flow belong to T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -362,7 +361,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search for tableaux (A, b) tries, in order of trial.
+    """Return the names of the parametrisations that a search for tableaux (A, b) tries, in order of trial.
 
     >>> from orderconds.families import get
     >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
@@ -372,7 +371,7 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search for commutator-free methods tries, in order of
+    """Return the names of the parametrisations that a search for commutator-free methods tries, in order of
     trial.
 
     >>> from orderconds.families import get
@@ -386,7 +385,7 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the only structure (parametrisation) that a search for compositions or splittings tries.
+    """Return the name of the only parametrisation of compositions and splittings.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))
@@ -397,11 +396,10 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Layout:
-    """The functions that parametrise the coefficients of one tableau format. The name of a parametrisation is
-    called its structure.
+    """The parametrisations of one tableau format. The name of a parametrisation is called a structure.
 
-    ``ansatz`` maps a family, a specification, a structure and a tableau name to an ansatz. ``structures``
-    returns the structures that a search tries, in order of trial.
+    ``ansatz`` returns the ansatz for a family, a specification, a structure and a tableau name.
+    ``structures`` returns the structures that a search tries, in order of trial.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -414,15 +412,16 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisation of its methods. A search writes the methods of a
-family in the format :attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisations of the format. A search for methods of a family
+uses the format :attr:`orderconds.families.Family.unknowns`."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
-"""The functions that parametrise low-storage schemes, which store two registers."""
+"""The parametrisation of low-storage schemes (:mod:`orderconds.solve.low_storage`)."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is a label.
+    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is a label,
+    such as ``"rk"``.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.
@@ -439,7 +438,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures (parametrisations) that a search in ``family`` tries, in order of trial.
+    """Return the names of the parametrisations that a search in ``family`` tries, in order of trial.
 
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))

@@ -1,13 +1,13 @@
-"""Parametrisations of the exponentials of commutator-free methods. One parametrisation describes all methods.
-Another parametrisation describes symmetric methods.
+"""Parametrisations of commutator-free methods by the coefficients of the exponentials. One parametrisation
+describes all methods. The other parametrisation describes symmetric methods.
 
-A method has s stages. Its update is exp(Y_m) ... exp(Y_1) y0. Each exponent is a linear combination of the
-vector fields at the stages. For an exponent X, bar X denotes the exponent in which the coefficients of stages
-j and s + 1 - j are exchanged for all j. Let Q_i be the value of stage i. The method is symmetric if the
-following two conditions are satisfied:
+A method has s stages. The update is exp(Y_m) ... exp(Y_1) y0, where y0 is the initial value. Each exponent is
+a linear combination of the vector fields at the stages. If the coefficients of stages j and s + 1 - j are
+exchanged for all j, the exponent X becomes bar X. Let Q_i be the value of stage i. The method is symmetric if
+the following two conditions are satisfied:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
-- For each stage i, there are a number k from 0 to m and exponents X_1, ..., X_r with
+- For each stage i, there exist a number k from 0 to m and exponents X_1, ..., X_r such that
 
       Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
       Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
@@ -26,15 +26,15 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. A stage
-is a list of exponentials, and the update is such a list, too. An exponential is represented by the list of
-the names of its coefficients."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. The
+update is a list of exponentials, and each stage is a list of exponentials. An exponential is a list of
+coefficient names."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of all methods. In each exponential, the vector fields at all stages have
-    coefficients. For explicit and diagonally implicit methods, constraints set some coefficients to zero. The
-    first stage of an explicit method has no exponentials.
+    """Return the parametrisation of all methods. Each exponential has one coefficient for each stage. For
+    explicit and diagonally implicit methods, constraints set some coefficients to zero. The first
+    stage of an explicit method has no exponentials.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -60,8 +60,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. A stage begins with some exponentials of the update,
-    or with none. The stage ends with at least one exponential that has its own coefficients.
+    """Return the parametrisation of symmetric methods. The first exponentials of a stage can be taken from
+    the update. The other exponentials of the stage have new coefficients.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -81,8 +81,9 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with the first ``whole`` of the m exponentials of the update. For i <= s/2, the
-        # number ``whole`` is (i - 1/2) m/s, rounded up. For stage s + 1 - i, it is m minus this number.
+        # The update has m exponentials. The first ``whole`` of them are also the first exponentials of
+        # stage i. For i <= s/2, ``whole`` is (i - 1/2) m/s, rounded up. In stage s + 1 - i, ``whole`` is
+        # m minus the value for stage i. In the middle stage, ``whole`` is m/2, rounded down.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share
