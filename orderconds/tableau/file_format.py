@@ -1,12 +1,12 @@
 """The keys that all tableau formats share, and functions that read rows of coefficients.
 
-All coefficients of a tableau are elements of one ring, for example of the rational numbers. The ring is
-chosen after all coefficients are read. Therefore a file is read in two steps:
+All coefficients of a tableau are elements of one ring, for example of the rational numbers. The choice of
+the ring depends on all coefficients. Therefore a file is read in two steps:
 
-1. ``coefficients`` yields the text of every coefficient with its position in the file.
+1. ``coefficients`` yields every coefficient, as it is written in the file, with its position.
 2. ``build`` receives the value of every coefficient and returns the method.
 
-A position consists of a key and indices, such as ``A[2][1]``. The indices count from 1.
+A position consists of a key and indices, such as ``A[2][1]``. Indices start at 1.
 """
 
 from __future__ import annotations
@@ -31,26 +31,25 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the coefficients of the polynomial, beginning with
-    the constant term. The decimal ``near`` is an approximation of the root. Its error is at most one unit of
-    its last digit. No other real root may be so close to ``near``."""
+    the constant term. The decimal ``near`` is an approximation of the root. The error is at most one
+    unit of the last digit of ``near``. Every other real root has a larger distance from ``near``."""
 
     minpoly: list[Coefficient]
     near: str
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order of a method in a family of methods that truncates a series, such as the series of
-    dexpinv. The option ``cutoff`` is the highest power in the truncated series. The claim is for one value of
-    this option."""
+    """The claimed order of a method for one value of ``cutoff``. Some families of methods truncate a series,
+    such as the series of dexpinv. Their option ``cutoff`` is the highest power in the truncated series."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The table ``[proof]`` of a file with rounded decimals. It defines equations for the exact coefficients.
-    The equations have a solution close to the rounded decimals. The keys are explained in
-    :mod:`orderconds.tableau.unknowns`."""
+    """The table ``[proof]`` of a file with rounded decimals. The table defines equations. The exact
+    coefficients are a solution of these equations close to the decimals. The module
+    :mod:`orderconds.tableau.unknowns` explains the keys."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -61,19 +60,19 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 
 
 Number = Coefficient | RootEntry
-"""A value in the table ``numbers``."""
+"""A value in the table ``numbers`` of a tableau file."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims``. For a property, the value is True or False. For a family of methods, the
-value is the order of the method in this family. If the order depends on the option ``cutoff`` of the family,
-the value is a list of :class:`CutoffClaim`."""
+"""A value in the table ``claims`` of a tableau file. The key is a property or a family of methods. For a
+property, the value is True or False. For a family, the value is the order of the method in this family. If
+the order depends on the option ``cutoff`` of the family, the value is a list of :class:`CutoffClaim`."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     """The base class of all formats. It defines the keys that all formats share. The values in the table
     ``numbers`` have the type :data:`Number`. The values in the table ``claims`` have the type :data:`Claim`.
 
-    ``family`` is the name of the format. A family of methods has the same name. ``order`` is the claimed
-    order of the method in this family.
+    ``family`` is the name of the format, and also of a family of methods. ``order`` is the claimed order of
+    the method in this family.
     """
 
     name: str
@@ -88,34 +87,35 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of an array. If a tableau is stored in named arrays, and one of them has this name, then the
-    tableau has this format. The default format has an empty name here."""
+    """The name of the array that identifies this format among named arrays
+    (:func:`orderconds.tableau.formats.array_format`). The name is empty for the default format."""
     as_products: ClassVar[bool] = False
-    """True if a tableau of this format consists of products of exponentials. Named arrays store their
-    coefficients in the array ``exponentials`` (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format consists of products of exponentials. In named arrays, the
+    coefficients of the products form the array ``exponentials`` (:mod:`orderconds.exchange.arrays`)."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for the keys of a tableau that was stored in named arrays. ``names`` contains
-        the names of the arrays. A caller uses the default value of a key only if the key is missing."""
+        """Return default values for the missing keys of a tableau in named arrays. ``names`` contains the
+        names of the arrays."""
         return {}
 
     def coefficients(self) -> Places:
-        """Yield a pair (position in the file, text) for every coefficient."""
+        """Yield a pair such as ``("A[2][1]", "1/2")`` for every coefficient: its position and its entry in
+        the file."""
         yield from ()
 
     def verify(self, where: str) -> None:
-        """Raise :class:`TableauError` if values of the file contradict each other, for example if the lengths
-        of rows do not match."""
+        """Raise :class:`TableauError` if values of the file contradict each other, for example if a row is
+        longer than the number of stages."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method and its embedded method. Without an embedded method, the second value is None.
-        ``values`` maps the position of each coefficient to the value of the coefficient."""
+        """Return the pair (method, embedded method). If the file has no embedded method, the second value is
+        None. ``values`` maps positions, such as ``A[2][1]``, to the values of the coefficients."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
     def extension(self, values: Mapping[str, Element], ring: Ring) -> Extension | None:
-        """Return the continuous extension, or None if the file has none. ``values`` maps the position of each
-        coefficient to the value of the coefficient."""
+        """Return the continuous extension, or None if the file has none. ``values`` maps positions, such as
+        ``dense.b[2][1]``, to the values of the coefficients."""
         return None
 
 
@@ -131,7 +131,7 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
     """Return a row of coefficients, padded with zeros to length ``s``. ``place`` is the position of the row
-    in the file. ``values`` maps the position of each coefficient to the value of the coefficient.
+    in the file. ``values`` maps positions, such as ``b[1]``, to the values of the coefficients.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)
@@ -141,8 +141,8 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. The error
-    message contains ``noun``, the name of the objects whose number is s.
+    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. The error message
+    contains ``noun``, the name of the counted objects.
 
     >>> counted(3, "b")
     3
@@ -161,5 +161,5 @@ def verify_length(row: list[Coefficient], s: int, where: str) -> None:
         raise TableauError(
             f"{len(row)} entries",
             where=where,
-            expected=f"at most {s}, one for each stage (zeros may be left out)",
+            expected=f"at most {s}, one for each stage (zeros at the end may be left out)",
         )

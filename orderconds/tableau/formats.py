@@ -57,8 +57,8 @@ class ExtensionEntry(Struct, forbid_unknown_fields=True):
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "rk"``: a Butcher tableau with the matrix A and the weights b. Zeros at the end
-    of a row of A may be omitted. The nodes c may be omitted. If they are given, they must equal the row sums
-    of A. The key ``dense`` contains a continuous extension (:mod:`orderconds.tableau.extension`).
+    of a row of A may be omitted. The nodes c are optional. They must equal the row sums of A. The key
+    ``dense`` contains a continuous extension (:mod:`orderconds.tableau.extension`).
     """
 
     A: list[list[Coefficient]]
@@ -71,8 +71,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that A has s rows, and that no row is too long. Here s is the number of stages, which is the
-        number of entries of b."""
+        """Check the number of rows of A, and the lengths of all rows. The number of entries of b is the
+        number of stages."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -104,8 +104,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(f"polynomials of degree {degree}", where=where, expected=expected)
 
     def coefficients(self) -> Places:
-        """Yield a pair (position in the file, text) for every coefficient. The order is: A, b, c, the
-        embedded weights, the continuous extension."""
+        """Yield the position and the entry of every coefficient. The sequence is A, b, c, the embedded
+        weights, the continuous extension."""
         for i, row in enumerate(self.A):
             yield from row_places(row, f"A[{i + 1}]")
         yield from row_places(self.b, "b")
@@ -125,9 +125,9 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the Runge-Kutta method and its embedded weights. Without embedded weights, the second value
-        is None. Raises TableauError if c differs from the row sums of A, or if the embedded weights equal
-        b."""
+        """Return the pair (Runge-Kutta method, embedded weights). If the file has no embedded weights, the
+        second value is None. Raises TableauError if c differs from the row sums of A. Raises the same error
+        if the embedded weights equal b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -188,15 +188,14 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield a pair (position in the file, text) for every coefficient. The order is: A, b, A_hat,
-        b_hat."""
+        """Yield the position and the entry of every coefficient. The sequence is A, b, A_hat, b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
             yield from row_places(b, weights)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the partitioned method."""
+        """Return the pair (partitioned method, None). This format has no embedded method."""
         s = len(self.b)
         A, A_hat = (
             tuple(filled_row(values, f"{name}[{i + 1}]", s, ring) for i in range(s))
@@ -220,9 +219,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """The embedded update, for an error estimate. It uses the same stages as the update of the method. In a
-    method with s stages, ``from`` = s + 1 means that the product acts on the result of the update of the
-    method."""
+    """The embedded update, for an error estimate. The update and the embedded update use the same stages. If
+    the method has s stages and ``from`` is s + 1, the embedded update acts on the result of the update."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -240,7 +238,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "cf"``: a commutator-free method. The file contains either stages and an update,
     or a low-storage scheme. A low-storage scheme is converted to stages and an update.
 
-    ``embedded`` is a second update that uses the same stages.
+    ``embedded`` is a second update with the same stages, for an error estimate.
     """
 
     stage: list[StageEntry] = field(default_factory=list)
@@ -287,9 +285,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield "update", self.update
 
     def coefficients(self) -> Places:
-        """Yield a pair (position in the file, text) for every coefficient. For a low-storage scheme, A and B
-        are yielded first. Otherwise, the stages and the update are yielded first. The embedded update is
-        yielded last."""
+        """Yield the position and the entry of every coefficient. The sequence is the stages, the update, the
+        embedded update. For a low-storage scheme, the sequence is A, B, the embedded update."""
         if self.low_storage:
             yield from row_places(self.low_storage.A, "low_storage.A")
             yield from row_places(self.low_storage.B, "low_storage.B")
@@ -301,8 +298,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"embedded.exp[{r + 1}]")
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the commutator-free method and its embedded update. Without an embedded update, the second
-        value is None."""
+        """Return the pair (commutator-free method, embedded update). If the file has no embedded update, the
+        second value is None."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")
@@ -360,9 +357,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau that is stored in arrays with the names ``names``. A format fits
-    if ``names`` contains its ``distinctive_key``, the name of one array. If several formats fit, return the
-    format whose name comes first in the alphabet. If no format fits, return the default format,
+    """Return the format of a tableau that is stored in named arrays. ``names`` contains the names of the
+    arrays. A format fits if ``names`` contains the ``distinctive_key`` of the format. If several formats fit,
+    return the format whose name comes first in the alphabet. If no format fits, return the default format,
     ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])

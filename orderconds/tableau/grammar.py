@@ -1,8 +1,8 @@
 """The grammar of a coefficient. A coefficient is an arithmetic expression of bounded size. A
 recursive-descent parser reads the expression and does not execute it as code.
 
-In the grammar, ``x*`` means any number of repetitions of x, ``[x]`` an optional x, and ``x | y`` either x or
-y. Text in quotation marks appears literally in a coefficient.
+In the grammar, ``x*`` means that x may be repeated or omitted. ``[x]`` means that x is optional. ``x | y``
+means x or y. Text in quotation marks appears literally in a coefficient.
 
 ::
 
@@ -19,8 +19,8 @@ The decimal ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a b
 denotes a ball whose radius is defined in :mod:`orderconds.tableau.doubles`. The text ``a^b^c`` is an error,
 because it is ambiguous: it may mean (a^b)^c or a^(b^c).
 
-This module limits the length of a coefficient, its exponents and the depth of its parentheses. The module
-:mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
+This module limits the length of the text, the size of the exponents and the depth of the parentheses. The
+module :mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the constant is the ball of a double. A rounded decimal with n decimal places has the
-        radius 1/10^n, and an exact number has the radius 0. All other radii belong to doubles."""
+        """True if the constant is the ball of a double. An exact number has the radius 0. A rounded decimal
+        with n decimal places has the radius 1/10^n. A ball with another radius comes from a double."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
@@ -73,8 +73,7 @@ class Chain(Struct, frozen=True, cache_hash=True):
     """A sum or a product of several operands. A sum has the operators + and -. A product has the operators *
     and /. The operators are applied from left to right.
 
-    A sum or product with many operands is a single chain. Therefore it does not increase the nesting depth of
-    an expression. Only parentheses increase the depth.
+    A sum or product of many operands is a single chain. Therefore a long sum is not deeply nested.
     """
 
     operators: tuple[str, ...]
@@ -95,7 +94,8 @@ ZERO = Constant(Fraction(0))
 def parse(text: str, where: str = "") -> Expression:
     """Parse one coefficient.
 
-    Raises :class:`TableauError` if the text does not satisfy the grammar. The message contains ``where``.
+    Raises :class:`TableauError` if the text does not satisfy the grammar. The error message contains
+    ``where``, the position of the coefficient.
 
     >>> parse("0.81772~")
     Constant(value=Fraction(20443, 25000), unit=Fraction(1, 100000))
@@ -106,8 +106,8 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return the text of an expression. If ``limit`` is given, stop writing as soon as the text is
-    longer than ``limit`` characters.
+    """Return the text of an expression. If ``limit`` is given, the text is cut off soon after ``limit``
+    characters.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
@@ -136,7 +136,7 @@ def _level(x: Expression) -> int:
 
 
 def _parts(x: Expression, least: int) -> Iterator[str]:
-    """Yield the text of x in pieces. If the precedence of x is below ``least``, add parentheses."""
+    """Yield the text of x in pieces. The text has parentheses if the precedence of x is below ``least``."""
     level = _level(x)
     if level < least:
         yield from ("(", *_parts(x, SUM), ")")
@@ -162,8 +162,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 def _constant(x: Constant) -> str:
     """Return the text of a constant. A double has the suffix ``d``, and a rounded decimal has the suffix
-    ``~``. An exact number with a finite decimal expansion is written as a decimal. Other exact numbers are
-    written as fractions in parentheses."""
+    ``~``. An exact number with a finite decimal expansion is written as a decimal. Every other exact number
+    is written as a fraction in parentheses."""
     if x.is_double:
         return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
@@ -261,7 +261,7 @@ class _Parser:
         exponent = self.exponent()
         if self.accept("^"):
             raise self.error(
-                f"a power of a power without parentheses in {self.shown()}", "parentheses, as in (a^b)^c"
+                f"a power of a power needs parentheses in {self.shown()}", "parentheses, as in (a^b)^c"
             )
         return self.raised(base, exponent)
 
@@ -269,7 +269,7 @@ class _Parser:
         if abs(exponent.numerator) > MAX_EXPONENT:
             raise self.error(f"exponent {exponent} in {self.shown()}", f"at most {MAX_EXPONENT}")
         if exponent.denominator > MAX_ROOT:
-            raise self.error(f"exponent {exponent} in {self.shown()}", f"a root of index at most {MAX_ROOT}")
+            raise self.error(f"exponent {exponent} in {self.shown()}", f"a denominator of at most {MAX_ROOT}")
         return Power(base, exponent)
 
     def exponent(self) -> Fraction:
@@ -323,9 +323,9 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Round a decimal to the nearest double, and return the ball of this double. The radius of the ball
-        is :func:`~orderconds.tableau.doubles.radius`. The double 0 is exact: its radius is zero. Raises
-        TableauError if the decimal is too large for a double."""
+        """Round a decimal to the nearest double, and return the ball of this double. The function
+        :func:`~orderconds.tableau.doubles.radius` defines the radius. For the double 0, the radius is zero.
+        Raises TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

@@ -15,7 +15,7 @@ def root() -> Path:
     """Return the folder of tableau files.
 
     In the source tree of the project, this is the folder ``tableaux``. An installed package contains a copy
-    of this folder, and the path of the copy is returned.
+    of this folder. The function of the installed package returns the path of this copy.
 
     >>> root().is_dir()
     True

@@ -63,8 +63,8 @@ class _Reader:
         self.position = 0
 
     def formula(self, scale: float = 1.0) -> float:
-        """Return the width of the rest of the formula. Inside of braces, return the width of the text up to
-        the closing brace. ``scale`` is the size of the font relative to normal text."""
+        """Return the width of the text up to the end of the formula, or up to the closing brace of the
+        current group. ``scale`` is the font size relative to normal text."""
         total = 0.0
         while self.position < len(self.tokens):
             token = self._next()
@@ -101,8 +101,8 @@ class _Reader:
 
 
 def at_top(latex: str, token: str) -> bool:
-    """Return True if a formula contains a token that is not inside of braces. A token is a LaTeX command or a
-    single character.
+    """Return True if ``token`` occurs in a formula outside of braces. A token is a LaTeX command or a single
+    character.
 
     >>> at_top("a + b", " "), at_top(r"\\frac{a + b}{c}", " ")
     (True, False)
@@ -111,8 +111,7 @@ def at_top(latex: str, token: str) -> bool:
 
 
 def with_small_fractions(latex: str) -> str:
-    r"""Return a formula with small fractions: each ``\frac`` that is not inside of braces is replaced by
-    ``\tfrac``.
+    r"""Return a formula with small fractions: every ``\frac`` outside of braces becomes ``\tfrac``.
 
     >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
     \tfrac{\frac{1}{2} + x}{3}
@@ -148,8 +147,8 @@ def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
 
 
 def separated(entries: Sequence[str], opening: str = "(", closing: str = ")") -> list[str]:
-    """Return one text for each entry of a list. Joined together, the texts form the list in brackets. A
-    caller may break the line between two texts.
+    """Return one string for each entry of a list. The joined strings form the list with its brackets. A line
+    break is allowed between two strings.
 
     >>> separated(["1", "2"])
     ['(1, ', '2)']

@@ -1,8 +1,8 @@
-"""Functions that decide whether a method has a property, such as symplecticity. Each property is a set of
+"""Functions that decide whether a method has a property, such as symplecticity. Each function tests
 conditions on the coefficients.
 
-The functions return True, False or None. The result None occurs only for coefficients that are balls
-(intervals). It means that the balls are too wide for a decision. HLW denotes Hairer, Lubich and Wanner,
+The functions return True, False or None. The result None means that the coefficients are balls (intervals),
+and that these balls are too wide for a decision. HLW denotes Hairer, Lubich and Wanner,
 *Geometric Numerical Integration*.
 """
 
@@ -29,8 +29,10 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Return True if x = y, and None if this is undecided. For balls (intervals), x - x is a ball around zero
-    and does not prove that x equals itself. Therefore two references to the same object count as equal."""
+    """Return True if x = y, False if x differs from y, and None if the balls are too wide for a decision.
+
+    If x and y are the same object, the result is True. For a ball x, the difference x - x is a ball around
+    zero and does not prove equality."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -100,8 +102,8 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symmetric (HLW Theorem V.2.3).
 
     The condition for all i and j is: a_{s+1-i,s+1-j} + a_ij = b_j. Here s is the number of stages, and a_ij
-    and b_j are the entries of ``A`` and ``b``. The stages are not reordered. If a method satisfies the
-    condition only for another order of its stages, the result is not True.
+    and b_j are the entries of ``A`` and ``b``. The function uses the given order of the stages. It does not
+    search for another order that satisfies the condition.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -125,8 +127,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last: the method has more than one stage, its first stage
-    equals the start value, and it is stiffly accurate.
+    """Return True if the method is first-same-as-last. There are three conditions: the method has more than
+    one stage, the first stage equals the start value, and the last row of ``A`` equals ``b``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -164,10 +166,10 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    - A composition has s pairs of substeps. Pair i first applies the adjoint of a basic method with the step
-      size beta_i h. It then applies the basic method itself with the step size alpha_i h. The composition is
-      symmetric if alpha_{s+1-i} = beta_i for all i.
-    - A splitting is a list of flows with step sizes. It is symmetric if the reversed list is the same.
+    - A composition has s pairs of substeps. The first substep of pair i is the adjoint of a basic method with
+      the step size beta_i h. The second substep is the basic method with the step size alpha_i h. The
+      composition is symmetric if alpha_{s+1-i} = beta_i for all i.
+    - A splitting is a list of flows with step sizes. A splitting is symmetric if its list is a palindrome.
     - For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ

@@ -1,8 +1,10 @@
-"""The coefficients of a method as immutable data over one ring, and conversions between formats.
+"""Classes for the coefficients of a method, and conversions between the classes. The objects are immutable.
+All coefficients of a method are elements of one ring.
 
 In this module, stages are counted from 0. In files, stages are counted from 1. A product of
-exponentials is stored as a sequence of rows. The first row belongs to the rightmost factor, which acts first.
-HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+exponentials is a sequence of rows. Each row contains the coefficients of one exponential. The first row
+defines the rightmost factor, which acts first. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ class RungeKutta:
 
     @property
     def c(self) -> Row:
-        """The abscissae, c_i = sum_j a_ij."""
+        """The abscissae (nodes) c_i = sum_j a_ij."""
         return tuple(reduce(add, row) for row in self.A)
 
     def map(self, convert: Convert) -> RungeKutta:
@@ -86,8 +88,8 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the Runge-Kutta method (A, b), which computes y. For a system y' = f(y) without variables z,
-        the partitioned method is equal to this Runge-Kutta method."""
+        """Return the Runge-Kutta method (A, b) for the variables y. For a system y' = f(y) without variables
+        z, the partitioned method is equal to this Runge-Kutta method."""
         return RungeKutta(self.A, self.b)
 
 
@@ -104,7 +106,7 @@ class Stage:
     exponentials: tuple[Row, ...]
 
     def map(self, convert: Convert) -> Stage:
-        """Return a copy of the product in which ``convert`` is applied to every coefficient."""
+        """Return a copy in which ``convert`` is applied to every coefficient."""
         return Stage(self.start, tuple(_converted(row, convert) for row in self.exponentials))
 
 
@@ -133,9 +135,9 @@ class CommutatorFree:
         """Return True if the product ``other`` provably equals the update of this method for all vector
         fields.
 
-        The function simplifies both products (:func:`_reduced`) and compares their exponents. Simplified
-        products with different exponents have different values for some vector fields (Chen 1958, on
-        piecewise linear paths).
+        The function simplifies both products (:func:`_reduced`) and compares their exponents. If two
+        products are equal for all vector fields, their simplified exponents agree (Chen 1958, on piecewise
+        linear paths).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -145,7 +147,7 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the Runge-Kutta tableau to which the method reduces on an abelian group. On such a group, a
+        """Return the Runge-Kutta method that equals this method on an abelian group. On such a group, a
         product of exponentials is the exponential of the sum of the exponents."""
 
         def total(stage: Stage) -> Row:
@@ -178,8 +180,9 @@ class Composition:
     """A composition of steps of one basic method with the step sizes gamma_1 h, ..., gamma_s h. The step of
     size gamma_1 h is applied first.
 
-    The basic method may be any symmetric method of order 2, so ``base`` is always ``"symmetric-2"``. In the
-    conversion to a Runge-Kutta method, the basic method is the implicit midpoint rule.
+    The basic method is an arbitrary symmetric method of order 2. The value of ``base`` is always
+    ``"symmetric-2"``. In the conversion to a Runge-Kutta method, the basic method is the implicit midpoint
+    rule.
     """
 
     base: str
@@ -195,7 +198,8 @@ class Composition:
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the diagonally implicit tableau of the composition of implicit midpoint steps.
+        """Return the composition as a diagonally implicit Runge-Kutta method. The basic method is the
+        implicit midpoint rule.
 
         The coefficients are b_i = gamma_i, a_ii = gamma_i/2, and a_ij = gamma_j for j < i (Lemma 3.5.4 of
         Bogfjellmo and Marthinsen).

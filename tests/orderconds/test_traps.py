@@ -64,7 +64,7 @@ REFUSED = {
     "cf4_embedded_equal": "embedded: an embedded method that is equal to the method itself",
     "coefficient_code": 'b[1]: the character "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
-    "coefficient_explodes": "b[1]: a power of a power without parentheses in '9^9^9^9'",
+    "coefficient_explodes": "b[1]: a power of a power needs parentheses in '9^9^9^9'",
     "embedded_equal": "the error estimate would always be zero",
     "name_twice": "Cannot overwrite a value",
     "row_sums": "c_3 = 17/25, but the sum of row 3 of A is 17/24",
