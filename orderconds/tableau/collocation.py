@@ -9,16 +9,15 @@ rows          a_ij is the integral of l_j from 0 to c_i (Gauss, Radau IIA, Lobat
 columns       a_ij is b_j / b_i times the integral of l_i from c_j to 1 (Radau IA, Lobatto IIIB)
 first column  A satisfies the assumption C(s - 1), and a_i1 = b_1 for all i (Lobatto IIIC)
 last column   A satisfies the assumption C(s - 1), and a_is = 0 for all i (Lobatto IIIC*)
-mean          A is the mean of two matrices: IIIC and IIIC* for Lobatto IIID, IIIA and IIIB for Lobatto IIIE
+mean          A is the mean of two matrices (Lobatto IIID: of IIIC and IIIC*; Lobatto IIIE: of IIIA and IIIB)
 ============  ============================================================================================
 
 Here C(s - 1) is Butcher's simplifying assumption: row i of A integrates polynomials of degree below s - 1
 from 0 to c_i exactly. Lobatto IIIC* is also known as Butcher's Lobatto III.
 
-Radau IIA and Lobatto IIIA have an embedded method for step-size control. The weights of the embedded method
-belong to the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the
-middle node. For an even number of nodes, the first of the two middle nodes is omitted. On a stiff equation,
-the step-size control can choose steps that are much longer than the fast time scales of the equation.
+Radau IIA and Lobatto IIIA with at least three stages have an embedded method for step-size control. The
+embedded method uses a quadrature without one of the nodes. Radau IIA omits the last node. Lobatto IIIA omits
+the middle node, or the first of the two middle nodes.
 
 The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
@@ -89,12 +88,12 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on all nodes except the node with the index ``left_out``,
-        counted from 0. The weight of the omitted node is zero.
+        """Return the weights of the quadrature without one node. The index ``left_out`` of this node is
+        counted from 0. The weight of this node in the result is zero.
 
-        Let k be the index of the omitted node. Let b_j be the weight of node j in the quadrature on all
-        nodes. Let e_j be the leading coefficient of the Lagrange polynomial of node j. The returned weight of
-        node j is ``b_j - (b_k / e_k) e_j``.
+        The weights of the full quadrature are changed by a multiple of the vector (e_1, ..., e_s). Here e_j
+        is the leading coefficient of the Lagrange polynomial of node j. This change preserves the integral of
+        every polynomial of degree below s - 1.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -104,22 +103,19 @@ class Nodes:
         return [x - share * y for x, y in zip(self.b, leading, strict=True)]
 
     def rows(self) -> Matrix:
-        """Return the matrix A of a collocation method: a_ij is the integral of the Lagrange polynomial of
-        node j from 0 to node i."""
+        """Return the matrix A of Gauss, Radau IIA and Lobatto IIIA. The module docstring defines A."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
 
     def columns(self) -> Matrix:
-        """Return the matrix A of Radau IA and Lobatto IIIB: a_ij is b_j / b_i times the integral of the
-        Lagrange polynomial of node i from node j to 1."""
+        """Return the matrix A of Radau IA and Lobatto IIIB. The module docstring defines A."""
         b, stages = self.b, range(self.s)
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
-        """Return a matrix A in which all entries of column k are equal to ``value``. Row i of A integrates
-        polynomials of degree below s - 1 from 0 to node i exactly, where s is the number of nodes.
+        """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
-        Let e_j be the leading coefficient of the Lagrange polynomial of node j. Row i of A is the sum of row
-        i of the matrix :meth:`rows` and a multiple of the vector (e_1, ..., e_s).
+        Each row of the matrix :meth:`rows` is changed by a multiple of the vector (e_1, ..., e_s). Here e_j
+        is the leading coefficient of the Lagrange polynomial of node j.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -128,11 +124,11 @@ class Nodes:
         ]
 
     def first_column(self) -> Matrix:
-        """Return the matrix A of Lobatto IIIC."""
+        """Return the matrix A of Lobatto IIIC. All entries of the first column are b_1."""
         return self.column(0, self.b[0])
 
     def last_column(self) -> Matrix:
-        """Return the matrix A of Lobatto IIIC*."""
+        """Return the matrix A of Lobatto IIIC*. All entries of the last column are zero."""
         return self.column(self.s - 1, self.tower.field.zero)
 
 
@@ -192,7 +188,7 @@ class Kind:
         return 2 if self.left and self.right else 1
 
     def order(self, s: int) -> int:
-        """Return the order of the method with s stages, which equals the order of the quadrature."""
+        """Return the order of the method with s stages. The quadrature on the s nodes has the same order."""
         return 2 * s - self.left - self.right
 
 
@@ -232,7 +228,7 @@ def construct(kind: str, stages: int) -> Tableau:
         nodes = Nodes(stages, rule.left, rule.right)
     except DegreeError as problem:
         raise InputError(
-            f"{kind} with {stages} stages: {problem}", expected="nodes in a field of degree at most 24"
+            f"{kind} with {stages} stages: {problem}", expected="nodes in a number field of degree at most 24"
         ) from None
     ring, lift = nodes.tower.ring()
     A = tuple(tuple(lift(x) for x in row) for row in rule.matrix(nodes))
@@ -244,8 +240,10 @@ def construct(kind: str, stages: int) -> Tableau:
 
 
 def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
-    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula. The polynomial is a
-    derivative of ``x^(s - right) (x - 1)^(s - left)``, in which True counts as 1 and False as 0.
+    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula. ``left`` is true if
+    0 is a node, and ``right`` is true if 1 is a node. In formulas, True counts as 1 and False as 0.
+
+    The result is the derivative of order ``s - left - right`` of ``x^(s - right) (x - 1)^(s - left)``.
 
     >>> nodal_polynomial(2, False, False)
     12*x^2 + (-12)*x + 2
@@ -261,8 +259,8 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     """Return the roots of a polynomial that has only real roots. Where possible, the roots are expressed by
     square roots.
 
-    Where this is not possible, the roots of an irreducible polynomial get the names c1, c2, ... in ascending
-    order. The largest root gets no name, because it is computed from the sum of all roots of this polynomial.
+    Otherwise, the roots of an irreducible factor get the names c1, c2, ... in ascending order. The largest
+    root of the factor gets no name. The sum of all roots, a coefficient of the factor, determines this root.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -19,8 +19,9 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have equal coefficients. The coefficients of embedded methods are compared,
     too.
 
-    Two balls (intervals) count as equal if they intersect and have similar widths. The balls need not be
-    identical, because the centre and the radius of a ball may be rounded when the ball is written to a file.
+    Two balls (intervals) count as equal if they intersect and have similar widths. The larger width is at
+    most 4 times the smaller width. The balls need not be identical, because a file may contain a rounded
+    centre and a rounded radius.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -47,8 +48,8 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Return True if two intervals intersect and have similar widths. A factor of 4 between the widths is
-    allowed."""
+    """Return True if two intervals intersect and have similar widths. The larger width is at most 4 times
+    the smaller width. Widths up to 2^-100 always count as similar."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

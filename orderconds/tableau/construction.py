@@ -1,4 +1,4 @@
-"""Conversion of Python arrays to the keys of a tableau file, for the constructors of :class:`Tableau`."""
+"""Conversion of Python arrays to the content of a tableau file, for the constructors of :class:`Tableau`."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ For a tableau of the format ``rk``, the integer 4 means the same as ``{"rk": 4}`
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
-    """Return the keys of a Butcher tableau with the matrix A, the weights b, the abscissae c and the embedded
-    weights ``bhat``.
+    """Return the keys and values of the tableau file of a Runge-Kutta method. The method has the matrix A,
+    the weights b, the abscissae c and the embedded weights ``bhat``.
 
-    The zeros above the diagonal of A may be omitted in all rows. If A is strictly lower triangular, the zeros
-    on the diagonal may also be omitted.
+    If A is lower triangular, all rows may end at the diagonal. If A is strictly lower triangular, all rows
+    may end before the diagonal.
 
     Raises :class:`~orderconds.errors.TableauError` for a wrong entry, or if the lengths do not match.
 
@@ -45,9 +45,8 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise TableauError if the rows of A have wrong lengths. Let s be the number of stages. Three shapes are
-    allowed: all rows have s entries, or row i has i entries, or row i has i - 1 entries. Rows are counted
-    from 1.
+    """Raise TableauError if the rows of A have wrong lengths. Three shapes are allowed: a full square, rows
+    that end at the diagonal, and rows that end before the diagonal.
     """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
@@ -72,7 +71,7 @@ def commutator_free(
     starts: Mapping[int, int] | None = None,
     embedded: object = None,
 ) -> Data:
-    """Return the keys of a commutator-free method.
+    """Return the keys and values of the tableau file of a commutator-free method.
 
     ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials. The
     first exponential of a list acts first. An exponential is a row of coefficients, one for each stage. Zeros
@@ -135,8 +134,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Add the keys for the name, the source and the claims to ``data``. An empty source is omitted. Claims
-    are omitted if they are None.
+    """Return ``data`` with the name, the source and the claims added. An empty source adds no key. The value
+    None as claims adds no key, either.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}
@@ -160,8 +159,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Return a map of claims. The label of a family is mapped to the claimed order. The name of a property is
-    mapped to True or False."""
+    """Check the claims and return them as a dictionary. The value of a family, such as "rk", is the claimed
+    order. The value of a property, such as "explicit", is True or False."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

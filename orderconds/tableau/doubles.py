@@ -6,7 +6,8 @@ double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a
 ``2^-53 |x|``. The factor ``UNITS`` allows for several roundings, because many coefficients are results of a
 computation.
 
-A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number.
+A Python float with at most :data:`SHORT` significant bits, such as 0.5, 3.0 or -0.375, counts as an exact
+number. Very large and very small numbers are exceptions (:data:`LARGE`).
 """
 
 from __future__ import annotations
@@ -30,11 +31,12 @@ SHORT = 26
 is probably a rounded number."""
 
 PRINTED = 16
-"""The least number of digits of a printed double. A decimal with fewer digits is not treated as a double."""
+"""The least number of significant digits of a printed double. A decimal with fewer digits does not count as a
+printed double."""
 
 LARGE = 64
-"""The largest number of bits in the numerator and the denominator of a double that counts as an exact number.
-With more bits, the exact decimal of the double would be too long."""
+"""A limit for doubles that count as exact numbers. Neither the numerator nor the denominator has more bits.
+Without this limit, the exact decimal of a double could have hundreds of digits."""
 
 LONGEST = 1200
 """An upper bound. No double has more significant decimal digits than this number."""
@@ -78,7 +80,7 @@ def is_double(text: str | int) -> bool:
 
 def decimal_text(text: str) -> str:
     """Convert the text of a double, such as ``0.1d``, to a decimal without suffix and exponent. The decimal
-    has at least :data:`PRINTED` digits. A program that reads the decimal obtains the same double.
+    has at least :data:`PRINTED` significant digits. A program that reads the decimal obtains the same double.
 
     >>> decimal_text("-0.3333333333333333d"), decimal_text("0.1d")
     ('-0.3333333333333333', '0.10000000000000001')
@@ -102,7 +104,7 @@ def is_short(x: float) -> bool:
 
 def printed(value: Fraction) -> str:
     """Return the absolute value of a double as a decimal without exponent. The decimal has at least
-    :data:`PRINTED` digits.
+    :data:`PRINTED` significant digits.
 
     >>> printed(Fraction(1 / 3)), printed(Fraction(0.1))
     ('0.3333333333333333', '0.10000000000000001')
@@ -117,13 +119,13 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal was probably printed from a double. The decimal must not have an exponent.
-    Zeros at the beginning of the decimal do not count as digits.
+    """Return True if a decimal without exponent was probably printed from a double. Zeros at the beginning of
+    the decimal do not count as digits.
 
     - Fewer than 16 digits: the result is False.
     - 16 or 17 digits: the result is True.
-    - From 18 to 1200 digits: the result is True if the nearest double has the same digits. For this test, the
-      double is printed with the same number of digits as the decimal.
+    - From 18 to 1200 digits: the nearest double is printed with the same number of digits as the decimal. The
+      result is True if both decimals are equal.
     - More than 1200 digits: the result is False.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")

@@ -2,9 +2,9 @@ r"""Equations in LaTeX that define a method. The equations are printed if the me
 if the array is too wide.
 
 Each equation is broken into lines that fit in a column of a two-column article. If the tableau contains
-doubles, all coefficients are printed with six digits. In every other tableau, short coefficients are printed
-exactly. Long coefficients, and coefficients with names such as c1, are printed as truncated decimals that end
-in ``\ldots``.
+doubles, all coefficients are rounded to six digits. In every other tableau, a short coefficient is printed
+exactly. A coefficient that is long or contains a name, such as c1, is printed as a truncated decimal. Such a
+decimal ends in ``\ldots``.
 """
 
 from __future__ import annotations
@@ -81,8 +81,9 @@ def has_name(text: str) -> bool:
 
 
 def short_text(x: Element, tableau: Tableau) -> str:
-    """Return the text of a coefficient. If the tableau contains doubles, the text has six digits. In every
-    other tableau, a long rounded decimal is truncated after :data:`SHORT` digits.
+    """Return the text of a coefficient. If the tableau contains doubles, the coefficient is rounded to six
+    digits. In every other tableau, an exact coefficient is not changed. A rounded decimal with more than
+    :data:`SHORT` characters is truncated after :data:`SHORT` digits.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau = Tableau.rk([[0, 0], ["1/2", 0]], [0, 1])
@@ -96,8 +97,8 @@ def short_text(x: Element, tableau: Tableau) -> str:
 
 
 def _decimal(x: Element, tableau: Tableau) -> str:
-    """Return a coefficient as a decimal that ends with a tilde. The decimal is truncated after :data:`SHORT`
-    digits."""
+    """Return a coefficient as a decimal, truncated after :data:`SHORT` digits. The decimal ends with a tilde.
+    In LaTeX, the tilde becomes ``\\ldots``."""
     nearest = Decimal(cast("RealRing", tableau.ring).nearest_float(x))
     return f"{Context(prec=SHORT, rounding=ROUND_DOWN).plus(nearest):f}~"
 
@@ -172,8 +173,8 @@ def _splitting(method: Splitting, tableau: Tableau) -> Iterator[Equation]:
 
 
 def _magnus(method: Magnus, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the equations of the nodes, the named Lie elements, and the exponents Omega_1, Omega_2, .... The
-    exponential of Omega_1 acts first."""
+    """Yield the equations that define the nodes, then the named Lie elements, then the exponents Omega_1,
+    Omega_2, .... The exponential of Omega_1 acts first."""
     yield "c", _list(method.c, tableau)
     for name, combination in method.elements:
         yield _name(name), _brackets(combination, tableau)
@@ -198,16 +199,16 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the formula of a stage, a product of exponentials that acts on y_0 or on an earlier stage. The
-    rightmost exponential acts first. The formula is split where a line break is allowed."""
+    """Return the formula of a stage in parts. A line break is allowed after each part. The formula is a
+    product of exponentials that acts on y_0 or on an earlier stage. The rightmost exponential acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the formula of one exponential. The exponent is h times a linear combination of k_1, k_2, ...,
-    with the entries of ``row`` as coefficients. The formula is split where a line break is allowed."""
+    """Return the formula of one exponential in parts. A line break is allowed after each part. The exponent
+    is h times a linear combination of k_1, k_2, .... The entries of ``row`` are the coefficients."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")

@@ -1,10 +1,11 @@
 """Evaluation of the coefficients of a tableau file in one ring: Q, a number field, or balls (intervals).
 
-The coefficients determine the ring. If all coefficients are rational, the ring is Q. If radicals or named
-roots occur, the ring is the number field that they generate. All coefficients become balls in two cases: a
-coefficient is a rounded decimal (``~``) or a double (``d``), or the degree of the number field exceeds
-:data:`orderconds.ring.tower.MAX_DEGREE`.
-Equal expressions in one file denote the same number, and are represented by the same object.
+The numbers in the file determine the ring. If all coefficients are rational, the ring is Q. If coefficients
+contain radicals or named roots, these roots generate a number field, which is the ring. If the file contains
+a rounded decimal (``~``) or a double (``d``), all coefficients become balls. If the degree of the number
+field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`, all coefficients become balls, too.
+
+Equal expressions in one file denote the same number. Their common value is one object.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ MAX_SIZE = 40_000
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
-    power first. The decimal ``near`` is an approximation of the root, with an error of at most one unit in
-    the last digit. No other root may be this close to the decimal."""
+    power first. The decimal ``near`` approximates the root. The error is at most one unit in the last
+    digit. If the polynomial has another root within this distance, the definition is an error."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -36,20 +37,20 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """A ring in which expressions are evaluated: the ring of balls, or a number field. The number field is
-    extended when an expression contains a new root."""
+    """A ring in which expressions are evaluated: the ring of balls, or a number field. If an expression
+    contains a new root, this root is added to the number field."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return the rational number ``value`` if its uncertainty ``unit`` is zero. Otherwise, return the
         ball of radius ``unit`` around ``value``."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root of x of degree ``index`` (2 for the square root). Raises ValueError for an
-        even root of a negative number."""
+        """Return the real root of x with the given index (2 for the square root, 3 for the cube root). Raises
+        ValueError if x is negative and the index is even."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
-        ValueError if the number of these roots is not 1."""
+        """Return the real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
+        ValueError if there is no such root or more than one."""
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest integer in the representation of x."""
@@ -58,9 +59,9 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return a ring and the values of ``expressions`` in this ring. The ring is Q if possible, otherwise a
-    number field, and the ring of balls if neither is possible. An expression and its value have the same key:
-    the position of the coefficient in the tableau file, such as ``A[2][1]``.
+    """Return a ring and the values of ``expressions`` in this ring. The ring is Q, a number field, or the
+    ring of balls. The key of an expression is the position of the coefficient in the tableau file, such as
+    ``A[2][1]``. The value has the same key.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
@@ -79,8 +80,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers only now, because an unused number must not change the ring of the
-            # coefficients.
+            # Evaluate unused numbers last. Their roots must not be added to the field of the coefficients.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -110,15 +110,15 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values to elements of one field by the function ``lift``. If two keys have the same object
-    as value, their new values are also one object."""
+    """Convert the values to elements of one field by the function ``lift``. Keys with a common value object
+    have a common object in the result, too."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant in an expression. The attribute ``unit`` of a constant is the uncertainty. The
-    uncertainty of an exact number is zero. Rounded decimals and doubles have a positive uncertainty.
+    """Yield every constant in an expression: exact numbers, rounded decimals and doubles. The attribute
+    ``unit`` is the uncertainty of the constant. The uncertainty of an exact number is zero.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -134,12 +134,13 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return a working precision in bits, much higher than the precision of the decimals in the file."""
+    """Return the working precision in bits. The result is at least 256, and exceeds the precision of every
+    constant by at least 64 bits."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
 class _Evaluation:
-    """An evaluation of expressions in one ring. Each distinct expression is evaluated only once."""
+    """The values of expressions in one ring. Equal expressions are evaluated only once."""
 
     def __init__(self, scalars: Scalars, numbers: Mapping[str, Definition], where: str) -> None:
         self.scalars, self.numbers, self.where = scalars, numbers, where

@@ -1,14 +1,14 @@
 """Continuous extensions (dense output). An extension gives the solution at every time t_0 + theta h inside a
 step from t_0 to t_0 + h.
 
-The extension of a Runge-Kutta method replaces the weights b_i of the stages by polynomials b_i(theta). Its
-order is q if every rooted tree t with at most q nodes satisfies one condition. Let n be the number of nodes
-of t, and gamma(t) the density of t. The condition is: the elementary weight of t, computed with the weights
-b_i(theta), equals ``theta^n / gamma(t)`` (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
-I, section II.6).
+The extension of a Runge-Kutta method replaces the weights b_i of the stages by polynomials b_i(theta). Each
+rooted tree t gives one order condition. Let n be the number of nodes of t, and gamma(t) the density of t. The
+condition is: the elementary weight of t, computed with the weights b_i(theta), equals ``theta^n / gamma(t)``.
+The extension has order q if the conditions of all trees with at most q nodes are satisfied (Hairer, Norsett
+and Wanner, Solving Ordinary Differential Equations I, section II.6).
 
-The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same polynomials. Stage i of the method has
-the Lie algebra element k_i. The exponential of ``h sum_i b_i(theta) k_i`` acts on y_0, and the result is the
+The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same polynomials. Let k_i be the Lie
+algebra element of stage i. The exponential of ``h sum_i b_i(theta) k_i`` maps the initial value y_0 to the
 solution at the time t_0 + theta h.
 """
 
@@ -24,7 +24,7 @@ from orderconds.tableau.methods import Row
 class Extension:
     """The weights of a continuous extension. The weight of stage i is a polynomial in theta. Row i contains
     the coefficients of theta, theta^2, ... in this polynomial. All rows have the same length. ``order`` is
-    the claimed order.
+    the order that the tableau file claims.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)
     (-1, 1)
@@ -47,6 +47,5 @@ class Extension:
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return one number for each stage. The number is the scalar product of ``factors`` and the
-        coefficients of the weight of this stage."""
+        """Return the scalar product of ``factors`` and each row."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

@@ -56,8 +56,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` contains
-    the same values as an object, whose class depends on the format. The other attributes describe the
+    """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is an
+    object with the same values. The key ``family`` determines its class. The other attributes describe the
     method."""
 
     data: Mapping[str, object]
@@ -104,8 +104,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 def meant_as_tableau(path: str | Path) -> bool:
     """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. The result is also
-    True if the file cannot be read or is not valid TOML. The caller then does not skip the file, but reads it
-    as a tableau file and reports the error.
+    True if the file cannot be read or is not valid TOML, so that the caller reports the error and does not
+    skip the file.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -157,8 +157,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``.
-    # This is usually the path of the file.
+    # ``build`` reports the name of the tableau as the place of an error. Replace this name by ``where``,
+    # which is usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -171,9 +171,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Return the keys and values of a file as an object. The key ``family`` names the format of the tableau,
-    and the format determines the class of the object. Raises TableauError if the format is unknown. Raises
-    TableauError, too, if a key or a type does not fit the format."""
+    """Convert the keys and values of a file to an object. The key ``family`` determines the class of the
+    object. Raises TableauError if the family is unknown, or if a key or a type does not fit the class."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -188,7 +187,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table one by one. An error message then contains the name of the wrong
+    """Convert the entries of a table one by one, so that an error message contains the name of the wrong
     entry."""
     result = {}
     for name, value in table.items():
@@ -290,8 +289,8 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Return a coefficient as a fraction. Raises TableauError if the coefficient is not an exact rational
-    number."""
+    """Return the number ``x``, such as 2 or "-1/2", as a fraction. Raises TableauError if x is not an exact
+    rational number."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -319,7 +318,7 @@ def _decimal(text: str, where: str) -> Constant:
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     """Return the content of the table ``[proof]``, or None if the file has no such table. Raises TableauError
-    if the table contains unknown names or contradicts the file."""
+    for an unknown name, for assumptions that do not fit the reduction, and if the file has no decimals."""
     given = entry.proof
     if given is None:
         return None
@@ -327,7 +326,7 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     decimals = {u.name: u for u in symbolic.decimals()}
     if not decimals:
         raise TableauError(
-            "a table [proof], although all coefficients are exact",
+            "a table [proof] in a file without rounded decimals",
             where=place,
             expected='decimals with "~"',
         )
