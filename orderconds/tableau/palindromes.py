@@ -1,15 +1,14 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. The exponent of each exponential has s coefficients, one for each stage. In the conjugate
-exponential, the coefficients of stages j and s + 1 - j are exchanged, for each j. The method is symmetric if
-two conditions hold:
+maps y1 back to y0. An exponent has s coefficients, one for each stage. The conjugate of an exponential has
+the same coefficients in reverse order. A sequence of exponentials leads from y0 to y1, and another one leads
+from y0 to each stage value. The method is symmetric if two conditions hold:
 
-- The update is a sequence of exponentials. If each exponential is replaced by its conjugate, the result is
-  the same sequence, read backwards.
-- For each i, consider the exponentials that lead from y0 to the value of stage i. If each exponential is
-  replaced by its conjugate, and all exponents are multiplied by -1, the new exponentials lead from y1 to the
-  value of stage s + 1 - i.
+- The sequence for y1 is a palindrome: the conjugates of its exponentials are the same sequence in reverse
+  order.
+- In the sequence for stage i, replace each exponential by the inverse of its conjugate. For each i, the new
+  sequence leads from y1 to the value of stage s + 1 - i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

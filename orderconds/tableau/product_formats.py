@@ -60,7 +60,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     f"base = {self.base} {'without' if row is None else 'with'} the key {key}",
                     where=where,
-                    expected="the keys alpha and beta for base adjoint-pair, the key gamma for base "
+                    expected="alpha and beta if the base is adjoint-pair, or gamma if the base is "
                     "symmetric-2",
                 )
         for key, row in self._rows():
@@ -94,8 +94,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "splitting"``: a product of flows. A vector field is the sum of several vector
     fields, which are called parts. Each factor of the product is the flow of one part.
 
-    ``parts`` contains the names of the parts. The optional key ``rkn`` is used for two parts T and V whose
-    Lie brackets satisfy [V,[V,[V,T]]] = 0. The value of ``rkn`` is the name of V.
+    ``parts`` contains the names of the parts. If there are two parts T and V whose Lie brackets
+    satisfy [V,[V,[V,T]]] = 0, the optional key ``rkn`` contains the name of V.
     """
 
     parts: list[str]
@@ -103,8 +103,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     rkn: str | None = None
 
     def verify(self, where: str) -> None:
-        """Check that the parts have different names, and that each step contains the name of a part. The key
-        ``rkn`` requires two parts, and its value must be the name of one part."""
+        """Check that the parts have different names, and that each flow in ``step`` is the flow of a part.
+        If the file contains ``rkn``, check that there are two parts, and that ``rkn`` names one of them."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -142,12 +142,12 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "magnus"``: nodes c, and one table for each exponent. The keys of a table are
-    terms, such as nodes or brackets of nodes, and the values are the coefficients of the terms. Nodes are
-    counted from 1.
+    """The format ``family = "magnus"``: the file contains the nodes c and one table for each exponent.
+    A table maps terms to coefficients. A term is, for example, the number of a node, or a bracket of two
+    nodes. Nodes are counted from 1.
 
-    ``elements`` defines named Lie elements. A name may be used in every exponent, and in elements that
-    are defined later. ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
+    ``elements`` defines named Lie elements. The exponents and all later elements may contain these names.
+    ``map`` is the map to the group: ``exp`` (exponential) or ``cay`` (Cayley transform).
     """
 
     c: list[Coefficient]
@@ -162,8 +162,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check the terms in all tables. A term is a node, the name of an earlier element, or a bracket of
-        two terms. If the map is ``cay``, a term may also be a product of terms."""
+        """Check the terms in all tables. A term is a node, the name of an element, or a bracket of two
+        terms. The definition of an element may contain only the names of earlier elements. If the map is
+        ``cay``, a term may also be a product of terms."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -185,7 +186,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"the name {name!r}",
                         where=f"{where}: elements",
-                        expected="a letter, then letters and digits",
+                        expected="a letter, then letters, digits and _",
                     )
                 known.append(name)
 
@@ -200,7 +201,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     f"the name {leaf!r} in {key!r}",
                     where=where,
-                    expected=f"one of the elements defined before it ({names})",
+                    expected=f"the name of an element that may occur here ({names})",
                 )
         if self.map == "exp" and has_product(term):
             raise TableauError(
@@ -210,16 +211,17 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
 
     def coefficients(self) -> Places:
-        """Yield all coefficients with their positions in the file. The sequence is: nodes, elements,
-        exponents."""
+        """Yield all coefficients with their positions in the file: the nodes, the coefficients of the
+        elements, and the coefficients of the exponents."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
             for key, coefficient in table.items():
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. If terms are products, each exponent must lie in the Lie algebra of every
-        quadratic group. Raises TableauError if an exponent does not satisfy this condition."""
+        """Return the method. If the exponents contain products, each exponent must lie in the Lie algebra of
+        every quadratic group, such as SO(n) or Sp(2n). Raises TableauError for an exponent outside this
+        Lie algebra."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -231,7 +233,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             self.map,
         )
         # A product of two elements of a Lie algebra may lie outside the Lie algebra. Verify that each
-        # exponent lies in the Lie algebra of every quadratic group.
+        # exponent lies in the Lie algebra of every quadratic group, such as SO(n) or Sp(2n).
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
@@ -241,7 +243,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
                         f"quadratic groups",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="equal coefficients of a product of 3, 5, ... factors and its reverse, and "
-                        "opposite coefficients of a product of 2, 4, ... factors and its reverse",
+                        expected="for each product and the reversed product: equal coefficients if the "
+                        "number of factors is odd, opposite coefficients if the number is even",
                     )
         return method, None

@@ -25,9 +25,9 @@ class Splitting:
     """A splitting method: a product of flows of the parts of a vector field. An entry (k, x) of ``steps`` is
     the flow of part k over the time x h, where h is the step size.
 
-    ``parts`` contains the names of the parts. For a Runge-Kutta-Nystroem splitting, ``rkn`` is the index of V
-    in ``parts``. Such a splitting has two parts T and V whose Lie brackets satisfy [V,[V,[V,T]]] = 0. For all
-    other splittings, ``rkn`` is None.
+    ``parts`` contains the names of the parts. A Runge-Kutta-Nystroem splitting has two parts T and V whose
+    Lie brackets satisfy [V,[V,[V,T]]] = 0. For such a splitting, ``rkn`` is the index of V in ``parts``. For
+    all other splittings, ``rkn`` is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -76,24 +76,24 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the Runge-Kutta tableau of the composition in which Phi is the explicit Euler method and
-        Phi* is the implicit Euler method.
+        """Return the composition as a Runge-Kutta tableau. Phi becomes the explicit Euler method, and its
+        adjoint Phi* becomes the implicit Euler method.
 
-        In each pair Phi_{alpha_i h} Phi*_{beta_i h}, both Euler steps evaluate the vector field at the same
-        point. This point is stage i. Hence b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i
-        (HLW, Section II.4).
+        The implicit Euler step with step size beta_i h evaluates the vector field at its end point. The next
+        explicit Euler step starts at this point, which is the value of stage i. Hence b_i = beta_i + alpha_i,
+        a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. For the
-        conversion, the basic method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi*
-        is the flow of B, followed by the flow of A.
+        """Convert the composition to a splitting into two parts A and B, with the indices 0 and 1. The
+        basic method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi* is the flow of B,
+        followed by the flow of A. Neighbouring flows of the same part are combined.
 
-        Neighbouring flows of the same part are combined. The splitting has the same order as the composition
-        (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+        By a theorem of McLachlan (SIAM J. Sci. Comput. 16 (1995) 151), the splitting has the same order as
+        the composition with an arbitrary basic method.
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -105,8 +105,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""The exponents of a Magnus method are expanded into products of the A_i only if the estimated number of
-products is at most this number."""
+"""The largest number of products in the expansion of a Magnus method. If the estimated number is larger, the
+exponents are not expanded."""
 
 
 @dataclass(frozen=True)
@@ -115,8 +115,8 @@ class Magnus:
     size and c_i are the nodes. Each exponent is a linear combination of the A_i and their brackets. With the
     Cayley transform, products of the A_i are also allowed.
 
-    The exponential of the first entry of ``exponents`` acts first. ``elements`` contains pairs of a name and
-    a Lie element. A name may be used in every exponent, and in elements that are defined later.
+    The exponential of the first entry of ``exponents`` acts first. Each entry of ``elements`` is a
+    name and a Lie element. The exponents and all later elements may contain this name.
     ``transform`` is ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
@@ -150,8 +150,8 @@ class Magnus:
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
         """Expand each exponent into a sum of products of the A_i. Return one dictionary for each exponent.
 
-        The dictionary maps each product to its coefficient. A key is a tuple of node indices, counted from 0.
-        For example, (i, j) denotes the product A_j A_i.
+        The dictionary maps each product to its coefficient. A product is represented by the tuple of its node
+        indices, counted from 0 and read from right to left. For example, (i, j) denotes A_j A_i.
         """
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
@@ -159,21 +159,20 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return two numbers for each exponent. The exponent expands to a sum of products of the A_i. The
-        numbers are the least and the greatest number of factors in these products."""
+        """Return the least and the greatest number of factors in the products of each exponent. Each exponent
+        is a sum of products of the A_i."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Return True if :meth:`words` is fast enough for this method. The number of products of the A_i is
-        estimated from the greatest number of factors in each exponent. The estimate must be at most
-        :data:`MOST_WORDS`."""
+        """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. The number
+        of products is estimated: an exponent with at most m factors counts as s^m products."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Return True if every exponent expands to a linear combination of the A_i. Brackets are allowed if
-        they cancel in the expansion. Return False if the expansion is too long (:meth:`is_expandable`)."""
+        """Return True if every exponent expands to a linear combination of the A_i. All brackets
+        must cancel in the expansion. Return False if the expansion is too long (:meth:`is_expandable`)."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

@@ -58,14 +58,13 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
-    """Rewrite the method as a scheme with two registers (2N). The result contains the scheme, or the reason
-    why there is no such scheme. Return None for a method that is neither a Runge-Kutta nor a commutator-free
-    method.
+    """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
+    result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. If the file has a
-    table ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals. If
-    the method and the scheme are equal for the random numbers, they are regarded as equal for all values of
-    the decimals. The probability of an error is negligible (:mod:`orderconds.tableau.random_member`).
+    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. For a file with
+    a table ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals.
+    Equality for random numbers counts as equality for all values of the decimals. The probability of an
+    error is negligible (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -109,9 +108,9 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for all values of its rounded decimals, and None if this is
-    unknown. The test uses random numbers in place of the decimals. If the test fails, the method may still be
-    symmetric for the exact coefficients, so the result is never False. The test requires a table
+    """Return True if the method is symmetric for all values of its rounded decimals. The test uses random
+    numbers in place of the decimals. Return None if the method with random numbers is not symmetric. The
+    method with the exact coefficients may still be symmetric. Return None if the file has no table
     ``[proof]``."""
     if tableau.proof is None:
         return None
@@ -149,8 +148,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Return True if a method is first-same-as-last: the first stage equals the start value, and the last
-    stage equals the update."""
+    """Return True if a method is first-same-as-last: the first stage value is y0, and the last stage value
+    is y1."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

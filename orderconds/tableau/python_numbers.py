@@ -24,7 +24,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""A NumPy float of less than 64 bits counts as an exact number if its denominator is at most this number."""
+"""A NumPy float of 16 or 32 bits is a fraction with a power of 2 as denominator. If the denominator is at
+most this number, the float counts as an exact number."""
 
 
 class _Listed(Protocol):
@@ -42,9 +43,9 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of less than 64 bits becomes an exact number if its denominator is at most :data:`SMALL`.
-    Otherwise the float becomes a rounded decimal, which ends with ``~``. Raises TableauError for complex
-    numbers, infinities, NaN, truth values and objects that are not numbers.
+    In a tableau file, ``d`` after a decimal denotes a double, and ``~`` denotes a rounded decimal. A NumPy
+    float of 16 or 32 bits becomes an exact number or a rounded decimal (see :data:`SMALL`). Raises
+    TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -88,9 +89,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Convert a floating-point number of less than 64 bits to a coefficient. If the number
-    is a fraction with denominator at most :data:`SMALL`, the coefficient is exact. Otherwise the coefficient
-    is a decimal with ``digits`` significant digits."""
+    """Convert a float of 16 or 32 bits to a coefficient: an exact number (see :data:`SMALL`), or a rounded
+    decimal with ``digits`` significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

@@ -6,8 +6,8 @@ value at the point with probability at most D / 2^128 (Schwartz 1980; Zippel 197
 passes the test only with negligible probability.
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
-changes all random numbers. Hence nobody can fit the coefficients of a file to known random numbers, so that a
-false identity passes the test. All computations use exact rational numbers.
+changes all random numbers. Hence nobody can choose coefficients for which the random numbers satisfy a false
+identity. All computations use exact rational numbers.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""The number of bits of a random number. A test of an identity between rational functions of degree D gives a
-wrong result with probability at most D / 2^128. The limit :data:`orderconds.tableau.evaluate.MAX_SIZE` on the
-size of intermediate values keeps D far below 2^40."""
+"""The number of bits of a random number. A false identity between rational functions of degree D passes
+the test with probability at most D / 2^128. The degree D is far below 2^40, because
+:data:`orderconds.tableau.evaluate.MAX_SIZE` limits the size of all intermediate values."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors that are raised if a random method cannot be evaluated. For example, a number is too large or a
-divisor is zero."""
+"""The errors that are raised if the method with random coefficients cannot be evaluated. For example, a
+divisor may be zero."""
 
 
 class RandomMember(Rationals):
-    """The field Q, with a random number in place of each rounded decimal and each radical of a file."""
+    """The ring Q for a tableau file in which random numbers replace the rounded decimals and the radicals."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
@@ -47,7 +47,7 @@ class RandomMember(Rationals):
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the random number that replaces the root of degree ``index`` of the number x."""
+        """Return the random number that replaces x^(1/``index``)."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
@@ -79,8 +79,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return a text that contains all coefficients and named numbers of a file. :class:`RandomMember`
-    computes its random numbers from this text.
+    """Return all coefficients and named numbers of a file as one text. :class:`RandomMember` computes the
+    random numbers from this text.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

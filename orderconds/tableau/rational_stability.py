@@ -23,9 +23,9 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return two truth values for a method with the stability function P/Q: whether the method is A-stable,
-    and whether it is L-stable. Return None if this is undecided, because a pole of P/Q may lie on the
-    imaginary axis.
+    """Return two truth values for a method with the stability function P/Q. The first one is True if the
+    method is A-stable, and the second one is True if the method is L-stable. Return None if a pole of P/Q may
+    lie on the imaginary axis.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

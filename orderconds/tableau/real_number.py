@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RealNumber:
-    """A real coefficient that is not a rational number. ``text`` is the number in the grammar of tableau
-    files, and ``nearest`` is the nearest double.
+    """A real coefficient that is not an exact rational number. ``text`` is the number in the grammar of
+    tableau files, and ``nearest`` is the nearest double.
 
     ``float(x)`` returns the nearest double. NumPy can therefore convert a matrix of coefficients by
     ``numpy.array(tableau.A, dtype=float)``.

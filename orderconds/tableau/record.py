@@ -82,9 +82,9 @@ class Tableau:
 
         A and b are lists, NumPy arrays or SymPy matrices. Their entries are integers, fractions, texts such
         as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
-        exact. All other floats have the uncertainty of a double.
+        exact. All other floats count as rounded numbers.
 
-        - ``bhat``: the s weights of an embedded method (the order of this method is computed)
+        - ``bhat``: the s weights of an embedded method, whose order is computed
         - ``c``: the abscissae, which must equal the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
@@ -115,11 +115,13 @@ from the table [numbers] (none)
         """Return the commutator-free method with the given stages and the given update.
 
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
-        The first exponential of a list acts first. An exponential is a row of coefficients, one for each
-        stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0. If
-        the exponentials of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from
-        1. ``embedded`` is a second update for an error estimate. Coefficients may have all types that
-        :meth:`rk` accepts.
+        The first exponential of a list acts first. An exponential is a row of s coefficients, where s is
+        the number of stages. Zeros at the end of a row may be omitted. The coefficients have the same types
+        as in :meth:`rk`.
+
+        - ``starts``: maps i to j if the exponentials of stage i act on the value of an earlier stage j. All
+          other stages start from y0. Stages are counted from 1.
+        - ``embedded``: a second update for an error estimate
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]
@@ -130,7 +132,8 @@ from the table [numbers] (none)
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Tableau:
-        """Read a tableau of the library by its name, or a file of any format.
+        """Read a tableau from the library or from a file. ``path`` is the name of a tableau in the library,
+        or the path of a file.
 
         Raises :class:`orderconds.errors.TableauError` for a file that is not valid. The message contains the
         file and the key. Raises :class:`orderconds.errors.UnknownName` for a name that is not in the library.
@@ -142,7 +145,7 @@ from the table [numbers] (none)
             raise TableauError(
                 described(path),
                 where="tableau",
-                expected="a Tableau, a name of the library, or a path",
+                expected="a Tableau, the name of a tableau in the library, or a path",
                 hint="Tableau.rk(A, b) builds a tableau from arrays",
             )
         given = Path(path)
@@ -167,9 +170,11 @@ from the table [numbers] (none)
     @property
     def A(self) -> tuple[tuple[Value, ...], ...]:
         """The rows of A. Exact rational entries are Fractions. All other entries are floats if the tableau
-        contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise. For a
-        commutator-free method, each exponential has a row of coefficients. Row i of A is the sum of these
-        rows for all exponentials that lead from y0 to stage i."""
+        contains doubles, and :class:`~orderconds.tableau.real_number.RealNumber` objects otherwise.
+
+        For a commutator-free method, a sequence of exponentials leads from y0 to the value of stage i. Row i
+        of A is the sum of the coefficient rows of these exponentials.
+        """
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
@@ -191,8 +196,8 @@ from the table [numbers] (none)
 
     @property
     def extension(self) -> Extension | None:
-        """The continuous extension in the tableau file. The value is None if the file has no extension, or if
-        the tableau is a copy with other coefficients."""
+        """The continuous extension in the tableau file. The value is None if the file has no extension. The
+        value is also None for a copy of the tableau with other coefficients."""
         return None if self.file is None else self.file.extension
 
     def _values(self, row: Row) -> tuple[Value, ...]:
@@ -200,10 +205,10 @@ from the table [numbers] (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed orders, such as ``{"rk": 4, ...}``. The keys are the families to which the method
-        belongs.
+        """The computed orders, such as ``{"rk": 4, ...}``. Each key is a family of integrators, and the
+        value is the order of the method in this family.
 
-        Use :func:`orderconds.check` to obtain certificates and failing conditions.
+        :func:`orderconds.check` also returns certificates and the conditions that fail.
         """
         orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.computed_orders").orders_of
         return orders_of(self)
@@ -217,7 +222,7 @@ from the table [numbers] (none)
         return f", {self.s} stage" + "s" * (self.s != 1)
 
     def __hash__(self) -> int:
-        # Balls and algebraic numbers have no hash, so the hash does not depend on the coefficients.
+        # Balls and algebraic numbers cannot be hashed. Omit the coefficients.
         return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
@@ -264,13 +269,13 @@ from the table [numbers] (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Convert the method to one of the formats. If several conversions are possible, the first of these
-        formats in ``formats`` is used. Return None if no conversion is possible.
+        """Convert the method to the first format in ``formats`` for which a conversion exists. Return None if
+        there is no such format.
 
-        A composition of symmetric steps is converted to ``rk`` with the implicit midpoint rule as the basic
-        method. A composition of a basic method and its adjoint is converted to ``rk`` with the explicit Euler
-        method as the basic method. The adjoint is then the implicit Euler method. Such a composition can also
-        be converted to ``splitting``.
+        A composition of symmetric steps can be converted to ``rk``: the basic method becomes the implicit
+        midpoint rule. A composition of a basic method and its adjoint can be converted to ``rk`` or
+        ``splitting``. In ``rk``, the basic method becomes the explicit Euler method, and the adjoint becomes
+        the implicit Euler method.
         """
         method = self.method
         for wanted in formats:
@@ -281,8 +286,8 @@ from the table [numbers] (none)
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau to which this method reduces on an abelian group. For a partitioned
-        method, return the tableau (A, b), without A_hat and b_hat.
+        """Return the Runge-Kutta tableau (A, b) of this method on vector spaces. For a partitioned method,
+        this is the tableau for the first part of the system.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """
@@ -345,7 +350,8 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
 
 
 def _exists(path: Path) -> bool:
-    """Return True if ``path`` is an existing file or folder. Return False for a path that is too long."""
+    """Return True if ``path`` is an existing file or folder. Return False if the operating system rejects
+    the path, for example because the path is too long."""
     try:
         return path.exists()
     except OSError:

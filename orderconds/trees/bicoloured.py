@@ -1,11 +1,11 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
 Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 (white) denotes the second
-part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. The branches at
-each vertex are sorted, and the branch with the greatest encoding comes first.
+part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. The root has level
+0. The branches at each vertex are sorted, and the branch with the greatest encoding comes first.
 
-The module :mod:`orderconds.trees.directed` uses the same encoding for trees with edges of two kinds. There,
-the colour is replaced by the kind of the edge from the vertex to its parent. HLW denotes Hairer, Lubich and
+The module :mod:`orderconds.trees.directed` encodes trees with edges of two kinds. In this encoding, the kind
+of the edge from a vertex to its parent replaces the colour of the vertex. HLW denotes Hairer, Lubich and
 Wanner, *Geometric Numerical Integration*.
 """
 
@@ -22,8 +22,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours exactly once (the set TP of HLW III.2.1). The
-    trees with a black root come before the trees with a white root.
+    """Yield all rooted trees with the given number of vertices of two colours, each tree once (the set TP
+    of HLW III.2.1). The trees with a black root come before the trees with a white root.
 
     In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
 
@@ -36,13 +36,12 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return every free tree with alternating colours exactly once. The root is chosen such that the height
-    is least.
+    """Return all free trees in which neighbours differ in colour, each tree once. Each tree is returned as a
+    rooted tree of least height.
 
-    In a tree with alternating colours, neighbours differ in colour. These trees index the order conditions
-    of symplectic partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). Each
-    uncoloured tree has two alternating colourings. The two colourings give the same tree if a symmetry of the
-    uncoloured tree exchanges the colours.
+    These trees index the order conditions of symplectic partitioned methods for separable Hamiltonians (Abia
+    and Sanz-Serna 1993; HLW VI.7.2). An uncoloured tree gives two such trees, which differ by an exchange of
+    the colours. The two trees are equal if a symmetry of the uncoloured tree exchanges the colours.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -116,8 +115,7 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the whole tree, rooted at the vertex of v next to the
-    edge.
+    contains the root, and v does not. The tree w is the given tree with the root of v as its root.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

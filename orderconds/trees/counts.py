@@ -11,8 +11,9 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of elements that have weights. Entry k - 1 of ``counts`` is the number
-    of different elements of weight k. Entry k - 1 of the result is the number of multisets of total weight k.
+    """Return the numbers of multisets. Each element of a multiset has a weight. Entry k - 1 of ``counts`` is
+    the number of different elements of weight k. Entry k - 1 of the result is the number of multisets of
+    total weight k.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -27,8 +28,8 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Return the number of rooted trees with ``vertices`` vertices. Each edge has one of ``kinds`` kinds
-    (A000081 for one kind, A000151 for two).
+    """Return the number of rooted trees with ``vertices`` vertices and ``kinds`` kinds of edges. The
+    sequences are A000081 of the OEIS for one kind, and A000151 for two kinds.
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
@@ -49,8 +50,8 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Return the number of ordered forests. A new root joins the trees of a forest to one tree, so the result
-    is the number of ordered trees with one more vertex.
+    """Return the number of ordered forests with ``vertices`` vertices. The result is also the number of
+    ordered trees with one more vertex, because a forest becomes a tree if a common root is added.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -84,8 +85,8 @@ def essential_free_tree_count(vertices: int) -> int:
 def alternating_free_tree_count(vertices: int) -> int:
     """Return the number of free trees with two colours in which neighbours differ in colour.
 
-    Each uncoloured free tree has two such colourings. The two colourings are equal if a symmetry of the tree
-    exchanges the colours.
+    An uncoloured free tree has two such colourings. If a symmetry of the tree exchanges the colours, the two
+    coloured trees are equal.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -100,8 +101,8 @@ def _in_equal_halves(vertices: int) -> int:
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with directed edges (A000238). By Otter's theorem, the result is the
-    number of trees with one marked vertex minus the number of trees with one marked edge.
+    """Return the number of free trees with directed edges (A000238). By Otter's theorem, the result is
+    the number of trees with a distinguished vertex minus the number of trees with a distinguished edge.
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]
@@ -114,9 +115,9 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
     k.
 
-    Every word is the product of a unique non-increasing sequence of Lyndon words. Hence the numbers L(n) of
-    Lyndon words of weight n satisfy an equation. The product of (1 - x^n)^(-L(n)) over all n is equal to
-    1/(1 - sum_k letters(k) x^k).
+    Every word is the product of a unique non-increasing sequence of Lyndon words. Let L(n) be the number of
+    Lyndon words of weight n. Hence the product of (1 - x^n)^(-L(n)) over all n is the generating function of
+    all words, 1/(1 - sum_k letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -34,7 +34,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     "starts by text": (lambda: Tableau.cf([[], [[1]]], [[0, 1]], starts={"1": 2}), "starts: '1' of type str"),  # type: ignore[dict-item]
     "load a number": (
         lambda: Tableau.load(3),
-        "tableau: 3; expected a Tableau, a name of the library, or a path",
+        "tableau: 3; expected a Tableau, the name of a tableau in the library, or a path",
     ),  # type: ignore[arg-type]
     "load a long name": (lambda: Tableau.load("x" * 5000), "no tableau 'xxx"),
     "loads bytes": (lambda: Tableau.loads(b""), "text: b'' of type bytes"),  # type: ignore[arg-type]

@@ -177,7 +177,7 @@ MALFORMED = {
     "alpha of a symmetric base": (
         'name = "t"\nfamily = "composition"\nbase = "symmetric-2"\nalpha = ["1"]\n',
         "base = symmetric-2 without the key gamma",
-        "the key gamma for base symmetric-2",
+        "gamma if the base is symmetric-2",
     ),
     "another base": ('name = "t"\nfamily = "composition"\nbase = "euler"\n', "base", ""),
     "a node beyond c": (MAGNUS + 'exponents = [{ "3" = 1 }]\n', "the node 3", "1 to 2"),
