@@ -34,6 +34,7 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
     """Return the coefficient of a g-valued tree in the exact flow, as a polynomial in the time s.
+    The output of the example shows s as x.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
@@ -45,6 +46,7 @@ def tau(tree: Velocity) -> UnivariatePolynomial:
 @cache
 def phi(word: Word) -> UnivariatePolynomial:
     """Return the coefficient of a word in the group element of the exact flow, as a polynomial in the time s.
+    The output of the example shows s as x.
 
     >>> from orderconds.series.action_trees import velocity
     >>> phi((velocity(), velocity()))
@@ -56,6 +58,7 @@ def phi(word: Word) -> UnivariatePolynomial:
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
     """Return the coefficient of a g*-valued tree in the exact flow, as a polynomial in the time s.
+    The output of the example shows s as x.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> psi(force()), psi(force((velocity(),)))

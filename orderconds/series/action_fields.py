@@ -2,9 +2,9 @@
 error. The module :mod:`orderconds.series.action_trees` defines the trees.
 
 A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
-moved k times: along direction i, the length of the step is a variable eps_i with eps_i^2 = 0. The value of H
-at the new point is a polynomial in these variables. The derivative is the coefficient of the product eps_1
-... eps_k. H must be a polynomial in the entries of the matrix q and the coordinates of mu.
+moved along each direction i by a variable distance eps_i, where eps_i^2 = 0. The value of H at the new point
+is a polynomial in eps_1, ..., eps_k. The derivative is the coefficient of the product eps_1 ... eps_k. H must
+be a polynomial in the entries of the matrix q and the coordinates of mu.
 """
 
 from __future__ import annotations
@@ -72,12 +72,12 @@ class ActionFields:
     """The elementary velocities xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one
     Hamiltonian at one point (q, mu).
 
-    - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu. It uses
-      only the operations ``+``, ``-`` and ``*``.
+    - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu. The
+      function must use only the operations ``+``, ``-`` and ``*``.
     - ``basis``: the matrices of a basis of the Lie algebra. The coordinates of mu refer to the dual basis.
     - ``coordinates``: a function that converts a matrix in the Lie algebra to coordinates.
 
-    The values of trees contain neither powers of the step size h nor symmetry factors.
+    The vectors xi_t and m_p contain neither powers of the step size h nor symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -178,8 +178,8 @@ class ActionFields:
         The result contains the coefficients of h^(p+1) in the errors after one step of size h. The first
         value is a matrix for the position, and the second value contains the coordinates for the momentum.
         ``defects`` maps each word with p + 1 vertices to a difference: the coefficient of the word in the
-        update minus its coefficient in the exact flow. For words with fewer vertices, the difference must be
-        zero.
+        update minus its coefficient in the exact flow. The differences of words with at most p vertices must
+        be zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -196,16 +196,16 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The series expresses the initial momentum by the final momentum, and ``weight * change`` is a
-            # term of the error of the initial momentum. The error of the final momentum, for a given initial
-            # momentum, has the opposite sign.
+            # The series expresses the initial momentum by the final momentum. Hence ``weight * change`` is a
+            # term of the error of the initial momentum. The error of the final momentum has the opposite
+            # sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps a vector x to a mixed derivative of H(q, mu). H is
-        differentiated in q along x and along the elementary velocities xi_t of the trees t in ``tree.word``.
-        H is differentiated in mu along the covectors m_p of the trees p in ``tree.momenta``."""
+        """Return the coordinates of the covector that maps a vector x to a mixed derivative of H(q, mu). The
+        directions in q are x and the elementary velocities xi_t of the trees t in ``tree.word``. The
+        directions in mu are the covectors m_p of the trees p in ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

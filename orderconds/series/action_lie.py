@@ -5,10 +5,9 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-The method also needs the coefficients of words that contain one special letter x. This letter represents a
-variation of the velocity of one stage. Such a word is written ``u x v``: the letters of the word u precede x,
-and the letters of the word v follow x. The functions of this module call these words ``before`` and
-``after``.
+The method also needs the coefficients of words u x v. Here u and v are words, and x is one special letter.
+This letter represents a variation of the velocity of one stage j: the sum xi_j + x replaces xi_j. For a word
+u x v, the functions of this module have the arguments ``before`` = u and ``after`` = v.
 """
 
 from __future__ import annotations
@@ -29,15 +28,13 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from stages to coefficients of a word u x v. For each stage, the letter x represents a variation of
-the velocity of this stage. Zero coefficients may be omitted."""
+"""A map from stages to coefficients of a word u x v. The coefficient of stage j belongs to the variation x of
+the velocity xi_j. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
     """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b). The
     series dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
-
-    The coefficients of a word are computed for all stages together.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -99,9 +96,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return a list of coefficients (:data:`Varied`) of the word u x v. If ``update`` is 0, the list
-        contains the coefficients in the exponential of each stage. If ``update`` is 1, the list contains only
-        the coefficients in the exponential of the update. The module docstring defines u, x and v."""
+        """Return the coefficients (:data:`Varied`) of the word u x v in exponentials. If ``update`` is 0, the
+        list has one entry for the exponential of each stage. If ``update`` is 1, the only entry belongs to
+        the exponential of the update. The module docstring defines u, x and v."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -114,9 +111,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return a list of coefficients of ``word``. If ``update`` is 0, the list contains the coefficient in
-        X_i^n for each stage i. If ``update`` is 1, the list contains only the coefficient in Y^n. The module
-        docstring defines X_i and Y."""
+        """Return the coefficients of ``word`` in n-th powers of exponents. If ``update`` is 0, the list has
+        one entry for the power X_i^n of each stage i. If ``update`` is 1, the only entry belongs to Y^n. The
+        module docstring defines X_i and Y."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -130,9 +127,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return a list of coefficients (:data:`Varied`) of the word u x v. If ``update`` is 0, the list
-        contains the coefficients in X_i^n for each stage i. If ``update`` is 1, the list contains only the
-        coefficients in Y^n. The module docstring defines these symbols."""
+        """Return the coefficients (:data:`Varied`) of the word u x v in n-th powers of exponents. If
+        ``update`` is 0, the list has one entry for the power X_i^n of each stage i. If ``update`` is 1, the
+        only entry belongs to Y^n. The module docstring defines u, x, v, X_i and Y."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -148,11 +145,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the result of :meth:`_varied_power` for a power n > 1 to ``totals``. The n-th power of an
-        exponent is the product of the exponent and its power n - 1."""
+        """Add the coefficients of the word u x v in X^n to ``totals``, for each exponent X and n > 1. The
+        power X^n is computed as the product of X and X^(n-1)."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # ``cut`` divides the word u x v into two words. If the first word contains x, ``rest`` is the
-            # number of letters of ``after`` in the first word. Otherwise, ``rest`` is negative.
+            # The word u x v is divided after ``cut`` letters. If ``rest`` is negative, x is in the second
+            # part. Otherwise, the first part ends with x and ``rest`` letters of ``after``.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -179,12 +176,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
-        xi_j. The module docstring defines this series.
-
-        The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is a
-        variation of the velocity of one stage.
-        """
+        """Return, for each stage j, the coefficients of the word u x v in the truncated series
+        dexpinv_{(r),X_j} xi_j. The module docstring defines this series and the word u x v."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -207,8 +200,8 @@ class MuntheKaasActionSeries(ActionSeries):
         """Return, for each stage j, the coefficient of a word in the truncated series dexpinv_{(r),X_j} xi_j.
         The module docstring defines this series.
 
-        The word consists of the word ``before``, the letter xi_j, and the word ``behind``. The letters of the
-        two words come from X_j. Return None if all coefficients are zero.
+        The word consists of the word ``before``, the letter xi_j, and the word ``behind``. Return None if no
+        term of the series contributes to the word.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -225,10 +218,10 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
         """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
-        xi_j. The module docstring defines this series.
+        xi_j. The module docstring defines this series and the letter x.
 
         The word consists of the word ``before``, the letter x, the word ``after``, the letter xi_j, and the
-        word ``behind``. The letter x is a variation of the velocity of one stage.
+        word ``behind``.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
@@ -240,10 +233,10 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
         """Return, for each stage j, the coefficients of a word in the truncated series dexpinv_{(r),X_j}
-        xi_j. The module docstring defines this series.
+        xi_j. The module docstring defines this series and the letter x.
 
         The word consists of the word ``first``, the letter xi_j, the word ``before``, the letter x, and the
-        word ``after``. The letter x is a variation of the velocity of one stage.
+        word ``after``.
         """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
@@ -253,11 +246,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a certain word. In this word,
-        ``before`` letters precede the letter xi, and ``behind`` letters follow it.
+        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to words of a certain form. In these
+        words, ``before`` letters precede the letter xi, and ``behind`` letters follow xi.
 
-        The factor X^m acts first, and so does the first letter of a word. Hence the letters before xi come
-        from X^m, and the letters behind xi come from X^n.
+        The letters of a word act one after another. In a term, X^m acts before xi, and X^n acts after xi.
+        Hence the letters before xi come from X^m, and the letters behind xi come from X^n.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -274,8 +267,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi that contain at most ``most`` factors X. A
-        triple (q, m, n) represents the term q X^n xi X^m."""
+        """Return the terms of the truncated series dexpinv_X xi with at most ``most`` factors X. A triple
+        (q, m, n) represents the term q X^n xi X^m."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -305,9 +298,9 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return terms of the vector v that solves dexp_{(r),X} v = xi, where r is ``cutoff``. Here dexp_{(r),X}
-    is dexp_X truncated after the r-th power of X. The result contains the terms with at most ``most`` factors
-    X. A triple (q, m, n) represents the term q X^n xi X^m.
+    """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
+    Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``. A triple (q, m, n)
+    represents the term q X^n xi X^m.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.

@@ -1,13 +1,13 @@
-"""Selection of independent action conditions. The left-hand sides of the conditions are evaluated for random
-methods modulo a prime. The ranks of these values determine which conditions are independent.
+"""Selection of independent action conditions. The left-hand sides of the conditions are evaluated modulo a
+prime, for many random methods and for the exact flow. The rank of the matrix of these values shows which
+conditions are independent.
 
-A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
-n. The polynomial must be the same for every method **and for the exact flow**. Without the exact flow, a
-condition that no method of the family satisfies could count as dependent.
+A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
+conditions up to order n. The polynomial must be the same for every method **and for the exact flow**. If the
+exact flow were omitted, a condition could seem to be dependent although no method satisfies it.
 
-Dependences are computed from the values of the trees for many random methods and for the exact flow. The
-trees are considered one after another, simplest first. A tree is selected if its condition does not depend on
-the conditions of the trees before it.
+The trees are considered one after another, simplest first. A tree is selected if its condition does not
+depend on the conditions of the earlier trees.
 """
 
 from __future__ import annotations
@@ -28,25 +28,24 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that creates many random methods of a family and returns their common action series. Each value
-of the series is a vector with one residue for each method. The random methods are also called samples."""
+"""A function that creates many random methods of a family and returns one action series for all of them. Each
+value of the series is a vector with one residue for each method. A random method is also called a sample."""
 
 SPARE_SAMPLES = 24
-"""The number of samples minus the largest possible rank. The additional samples make it improbable that
-independent conditions seem to be dependent."""
+"""The number of samples minus the largest possible rank. With fewer samples, independent conditions would be
+more likely to seem dependent."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would require more memory."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
-    simpler conditions.
+    """Return the trees with independent conditions, as one tuple for each of the orders 1, ..., ``order``.
 
-    The function selects trees modulo two primes, and returns the larger selection. The conditions of the
-    returned trees are certainly independent, because a rank modulo a prime is never larger than the rank over
-    Q. The selection is very probably complete. It is certainly complete if the number of trees is equal to
-    the upper bound of :func:`~orderconds.series.action_counts.tree_counts`.
+    The function selects trees modulo each of two primes, and returns the larger selection. Conditions that
+    are independent modulo a prime are also independent over Q. The selection is very probably complete. It is
+    certainly complete if the number of trees is equal to the upper bound of
+    :func:`~orderconds.series.action_counts.tree_counts`.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -74,8 +73,9 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return a map from each tree to a vector of numbers modulo ``prime``. Each entry is the left-hand side
-    of the condition of the tree for one random method. Only the last entry is the value for the exact flow.
+    """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the coefficient
+    of the tree in the exact flow. The other entries are the left-hand sides of the condition of the tree, one
+    for each random method.
 
     Calls that differ only in the list of trees use the same random methods.
 
@@ -105,9 +105,8 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 def _largest_rank(order: int) -> int:
     """Return the largest possible rank of the conditions of order ``order``.
 
-    Consider products of the independent elementary Hamiltonians that
-    :func:`~orderconds.series.action_counts.tree_counts` counts. The result is the number of products with
-    ``order`` vertices in total.
+    The result is the number of products of independent elementary Hamiltonians with ``order`` vertices in
+    total. The function :func:`~orderconds.series.action_counts.tree_counts` counts these Hamiltonians.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -33,16 +33,16 @@ from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
 """The terms of a polynomial. A pair (coefficient, trees) denotes the product of the coefficient and the
-values of the trees."""
+left-hand sides of the conditions of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from trees to polynomials. The polynomial of a tree expresses the condition of the tree by
-    the conditions of independent trees.
+    """Return a map from the dependent trees with n vertices to polynomials. The polynomial of a tree
+    expresses the condition of the tree by the conditions of independent trees.
 
-    ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
-    ..., n. The keys of the map are the dependent trees with n vertices. The polynomials are wrong with a
-    probability of about 10^-8. The function :func:`hold_over_rationals` verifies them over Q.
+    ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
+    ..., n. With a probability of about 10^-8, the polynomials are wrong. The function
+    :func:`hold_over_rationals` verifies the polynomials over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -92,11 +92,12 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Return True if ``polynomials`` are correct for the exact flow and for a method with random rational
-    coefficients. The argument has the form of a result of :func:`relations`.
+    """Return True if ``polynomials`` are correct for the exact flow and for one method with random rational
+    coefficients. ``polynomials`` is a map like the result of :func:`relations`.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. For a random method, a false relation of degree d holds with a probability below d/2^60.
+    ``ring``. Let d be the degree of a false relation in the coefficients of the method. The random method
+    satisfies this relation with a probability below d/2^60.
 
     In the example, ``right`` contains the relations of order 2. The coefficients in ``wrong`` are different.
 
@@ -135,8 +136,8 @@ def _coefficients(
     prime: int,
 ) -> list[dict[int, int]]:
     """Express the condition of each tree as a linear combination of ``monomials``. A monomial represents the
-    product of the conditions of its trees. Return one map for each tree. The map contains the coefficients
-    modulo ``prime``, and its keys are indices of monomials."""
+    product of the conditions of its trees. Return, for each tree, a map from indices of monomials to
+    coefficients modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

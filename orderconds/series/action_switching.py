@@ -2,9 +2,9 @@
 
 The module :mod:`orderconds.series.action_trees` defines the notation of trees. Let u, v and w be words of
 trees, and let M and N be multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w | M) v | N)``
-differ only in the choice of the root. Their conditions are double sums over the stages of a method. The two
-sums differ only in the order of summation. Hence the two conditions have the same left-hand side for every
-method. Their values for the exact flow are equal, too. All trees that differ only in the choice of the root
+differ only in the choice of the root. The left-hand sides of the two conditions are double sums over the
+stages of a method. The two sums differ only in the order of summation, and are therefore equal. The
+right-hand sides of the two conditions are equal, too. All trees that differ only in the choice of the root
 form a class. The condition of one tree of each class is sufficient.
 """
 
@@ -18,7 +18,7 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that result if the root is moved to a neighbouring vertex. Equal trees may be yielded
+    """Move the root to each neighbouring vertex, and yield the resulting trees. The same tree may be yielded
     several times.
 
     >>> list(switched(velocity((), (force(), force()))))
@@ -45,8 +45,8 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes of trees that differ only in the choice of the root. The classes are sorted by their
-    simplest trees. A class is computed only when it is needed.
+    """Yield the classes of trees that differ only in the choice of the root. The class with the simplest tree
+    is the first. A class is computed only when it is needed.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -65,9 +65,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return an empty list and an iterator over the classes of trees with ``vertices`` vertices. The function
-    :func:`classes_in_turn` takes classes from the iterator and stores them in the list. The trees of a class
-    differ only in the choice of the root."""
+    """Return a list and an iterator over the classes of trees with ``vertices`` vertices. The list is empty
+    at first. The function :func:`classes_in_turn` moves classes from the iterator to the list."""
     return [], _classes(vertices)
 
 

@@ -2,17 +2,18 @@
 
 Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. The vertices of a tree represent
 derivatives of H. A g-valued tree denotes an element of g, and a g*-valued tree denotes an element of g*. A
-word is a sequence of g-valued trees, which are its letters. A multiset contains g*-valued trees. There are
-three kinds of trees:
+word is a sequence of g-valued trees, which are the letters of the word. A multiset contains g*-valued trees.
+There are three kinds of trees:
 
 - A :class:`Velocity` is a g-valued tree with a word w and a multiset M. It is written (w, M) or ``o(w | M)``.
-  It denotes a derivative of H: once in mu, then in q along the right-invariant fields of the letters of w,
-  and in mu along the covectors of M. The first letter of w acts first.
+  It denotes a mixed derivative of the vector dH/dmu: in q along the right-invariant fields of the letters of
+  w, and in mu along the covectors of M. The field of the first letter of w moves q first.
 - A :class:`Force` is a g*-valued tree with two words u and v and a multiset M. It is written ``H(u * v | M)``
   or ``f(u * v | M)``. It denotes the covector that maps x to a derivative of H: in q along the
   right-invariant fields of u, x and v, and in mu along the covectors of M. The star marks the position of x.
 - A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. It denotes the covector that maps
-  x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w.
+  x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here ``<mu, y>`` is the
+  pairing of mu with y.
 
 A velocity also denotes an elementary Hamiltonian, which is a term of the generating function
 (:func:`hamiltonian`). Equal trees are identical objects.
@@ -28,7 +29,7 @@ class _Node:
     """The base class of the three kinds of trees. A tree stores its number of vertices, its cost and its
     canonical text.
 
-    The cost measures how difficult the order condition of the tree is to read.
+    If a tree has a higher cost, its order condition is harder to read.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -87,8 +88,8 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # If this tree is a letter in the word of a larger tree, it adds ``nesting`` to the cost of the larger
-        # tree. The factor of ``cost`` is 2, because a deep tree is harder to read than a wide tree.
+        # As a letter of a larger tree, this tree adds ``nesting`` to the cost of the larger tree. The cost of
+        # this tree counts twice, because a deep tree is harder to read than a wide tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -97,8 +98,8 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. An element of the group
-        exchanges equal trees in the multisets of the tree and its subtrees."""
+        """The order of the symmetry group of the tree. The group consists of the permutations of equal trees
+        in the multisets of the tree and its subtrees."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -124,8 +125,8 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. An element of the group
-        exchanges equal trees in the multisets of the tree and its subtrees."""
+        """The order of the symmetry group of the tree. The group consists of the permutations of equal trees
+        in the multisets of the tree and its subtrees."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
@@ -163,9 +164,10 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the additional cost of a word with different letters. The result is zero if all letters are
-    equal, because the coefficient of such a word is simple. It is c^k/k!, where k is the number of letters
-    and c is the coefficient of the word that contains the letter once.
+    """Return the additional cost of a word with different letters.
+
+    If all letters are equal, the result is zero, because the coefficient of the word has the simple form
+    c^k/k!. Here k is the number of letters, and c is the coefficient of the word with one letter.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -236,7 +238,7 @@ def transport(word: Word) -> Transport:
 
 
 def multiset(momenta: Momenta) -> Momenta:
-    """Sort the trees of a multiset into canonical order.
+    """Sort the trees of a multiset into canonical order, by their sort keys.
 
     >>> multiset((transport((velocity(),)), force()))
     (f(*), L(o))
@@ -269,8 +271,8 @@ def hamiltonian(tree: Velocity) -> str:
 
     The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
     follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
-    q is an element of g, and the derivative is right-invariant. A direction in mu is a covector, and a dot
-    represents the argument of the covector.
+    q is an element of g, which defines a right-invariant field. A direction in mu is a covector. A dot
+    represents the argument of this covector.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

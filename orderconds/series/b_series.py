@@ -3,8 +3,9 @@
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
 branches u of t. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 
-For many methods, the abscissae c_1, ..., c_s are the roots of a polynomial with rational coefficients. Then a
-polynomial p can represent the vector that has the entries p(c_1), ..., p(c_s) (:mod:`orderconds.ring.nodal`).
+For many methods, the abscissae c_1, ..., c_s are the roots of a polynomial with rational coefficients. For
+these methods, a polynomial p represents the vector with the entries p(c_1), ..., p(c_s)
+(:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -40,9 +41,10 @@ class StageAlgebra(Protocol):
 class ElementaryWeights(Generic[TreeT]):
     """The elementary weights ``sum_i b_i tau_t(i)`` of a method, for trees t in an arbitrary encoding.
 
-    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
+    The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t. The matrix (a_ij)
+    depends on the kind of the edge between the root of t and u.
 
-    ``matrices`` contains one s x s coefficient matrix over ``ring`` for each kind of edge. The function
+    ``matrices`` contains one s x s matrix (a_ij) over ``ring`` for each kind of edge. The function
     ``branches`` returns the branches of a tree as pairs (kind of the edge, subtree).
 
     >>> from orderconds.ring import QQ
@@ -119,10 +121,11 @@ class StageVectors:
 
 
 class Sums:
-    """The sums ``sum_j weight_j x_j`` of several sparse rows. A row contains pairs (j, weight_j).
+    """The sums ``sum_j weight_j x_j`` of several sparse rows, for a vector x. A row contains pairs
+    (j, weight_j).
 
-    If several rows begin with the same pairs, their common partial sum is computed once. For the tableau of a
-    composition of s midpoint rules, about 2 s products suffice, instead of about s^2/2 products.
+    If several rows begin with the same pairs, the partial sum of these pairs is computed only once. For a
+    composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -133,8 +136,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The definitions of the partial sums s_1, s_2, .... A triple (k, j, weight_j) at index n - 1 means
-        s_n = s_k + weight_j x_j. The sum s_0 is zero."""
+        """The definitions of the partial sums s_1, s_2, .... The triple (k, j, weight_j) at index n - 1
+        defines s_n = s_k + weight_j x_j. The sum s_0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

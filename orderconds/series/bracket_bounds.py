@@ -3,29 +3,30 @@ every program that computes the arguments u_1, ..., u_s of the exponentials of t
 of the exponential of the step (:class:`orderconds.series.brackets.BracketProgram`).
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
-the letters q_1, ..., q_(i-1), because it is computed before k_i. For a fixed m < i, call q_m, ..., q_(i-1)
-the new letters. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
+the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The letters q_m, ...,
+q_(i-1) are called new, and the letters q_1, ..., q_(m-1) are called old. A program for u_1, ..., u_i computes
+brackets with new letters and brackets without new letters. Let N be the number of brackets with new letters.
 
-First bound: in each argument, take the terms that have at least two letters and contain a new letter. Only
-brackets with new letters contribute to these terms. For each argument, the sum of these terms is an element
-of the algebra. Therefore N is at least the dimension of the space that these sums span.
+First bound: for each of the arguments u_1, ..., u_i, form the sum of the terms that have at least two letters
+and contain a new letter. Only the N brackets with new letters contribute to these sums. Therefore N is at
+least the dimension of the space that the sums span.
 
-Second bound: in each argument, take the terms that have at least two letters and exactly one new letter. Let
-the sum of these terms be called the linear part of the argument. It has the form sum_n ad_(P_n) q_n, where
-q_n are the new letters, and P_n are polynomials in the old letters. The operator ad_(P) is the polynomial P
-with the operator ad_q in place of each letter q, where ad_q x = [q, x]. Let S be the space that the linear
-parts of all arguments span, and d the dimension of S.
+Second bound: for each argument, form the sum of the terms that have at least two letters and exactly one new
+letter. This sum is called the linear part of the argument. The linear part has the form sum_n ad_(P_n) q_n,
+where q_n are the new letters, and P_n are polynomials in the old letters. The operator ad_(P) is the
+polynomial P with the operator ad_q in place of each letter q, where ad_q x = [q, x]. Let S be the space that
+the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
-In the same way, each of the N brackets has a linear part. These N linear parts span a space that contains S.
-Hence N is at least d. Now assume that every non-zero element of S has a polynomial P_n that is not a Lie
-element. Then N is greater than d, for the following reason. Of the N brackets, take the one that the program
-computes first, and let x be its linear part. The factors of this bracket contain no brackets with new
-letters. Therefore all polynomials P_n of x are Lie elements, and x is zero or not in S. If x is zero, N - 1
-linear parts suffice to span a space that contains S. If x is not in S, the N linear parts span a space that
-is larger than S.
+Each of the N brackets has a linear part, too. The linear parts of the N brackets span a space that contains
+S. Hence N is at least d. Now assume that every non-zero element of S has a polynomial P_n that is not a Lie
+element. Then N is greater than d, for the following reason. Consider the first of the N brackets that the
+program computes, and let x be the linear part of this bracket. The two factors of this bracket contain no
+brackets with new letters. Therefore all polynomials P_n of x are Lie elements. By the assumption, x is zero
+or not in S. If x is zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is
+not in S, the N linear parts span a space that is larger than S.
 
-A lower bound for the number of all brackets is the sum of two lower bounds. One is the bound for N. The other
-is a lower bound for the number of brackets without new letters.
+The number of brackets without new letters has a lower bound of the same kind. The sum of this bound and the
+bound for N is a lower bound for the number of all brackets.
 """
 
 from __future__ import annotations
@@ -80,8 +81,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the
     exponential of the step.
 
-    The order of the method does not depend on terms of the largest grade in u_1, ..., u_s. Therefore the
-    function ignores these terms. It considers terms of the largest grade only in u.
+    In u_1, ..., u_s, terms of the largest grade do not affect the order of the method, and the function
+    ignores these terms. In u, the function includes the terms of the largest grade.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -91,7 +92,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The order depends on terms of the largest grade only in the argument of the step.
+        # In the argument of the step, terms of the largest grade affect the order, too.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

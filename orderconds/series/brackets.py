@@ -3,13 +3,13 @@ simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
 step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples are chosen
-so that q_j has the highest possible grade. A method of order p requires the arguments of the stages up to
-grade p - 1, and the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357
-(1999) 957; Casas and Owren, BIT 43 (2003) 723).
+so that q_j has the highest possible grade. For order p, terms above grade p - 1 can be omitted from the
+arguments of the stages, and terms above grade p from the argument of the step (Munthe-Kaas and Owren, Phil.
+Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. A
-linear combination of two arguments may need fewer brackets than each of the two arguments. Then the program
-computes the combination before the arguments.
+A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. If
+a linear combination of two arguments seems to need fewer brackets than each of these arguments, the search
+expresses the combination before the arguments.
 """
 
 from __future__ import annotations
@@ -80,10 +80,12 @@ def fewest_brackets(
     the Runge-Kutta-Munthe-Kaas method of the tableau.
 
     The order of the tableau must be ``order``. The ring must have division and decide whether an element is
-    zero. The function searches for a program with a limited number of brackets. The coefficients of the
-    program solve equations with free parameters. First, these parameters are zero. Then ``attempts`` choices
-    of small pseudorandom numbers are tried. If all searches fail, the function repeats them with one more
-    bracket. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+    zero. The first searches use a lower bound as the largest allowed number of brackets. If all searches
+    fail, the function repeats the searches with one more bracket.
+
+    The coefficients of the program solve equations with free parameters. The function tries the value zero
+    for all parameters, and then ``attempts`` choices of small pseudorandom numbers. Raises
+    :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -167,10 +169,9 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return, for each stage i, the combinations of arguments that the program computes before u_i.
 
-    A combination has the form u_j - c u_i, where c is a number, and u_i and u_j are the arguments of the
-    stages i and j with j > i. The function returns a combination only if it needs fewer brackets than each of
-    the two arguments. A term of u_j that consists of one letter is omitted if this letter is computed after
-    u_i.
+    A combination has the form u_j - c u_i, where c is a number, and j > i is a later stage. The combination
+    seems to need fewer brackets than u_i and fewer brackets than u_j. If a term of u_j is a single letter
+    that the program computes after u_i, this term is omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -193,13 +194,13 @@ class _Shape:
     The pool is the list of known elements, and q_1 is its first element. The symbols x, y, z_n and w_n denote
     unknown linear combinations of elements of the pool.
 
+    - ``inner``: the number k of nested brackets C_1, ..., C_k. The bracket C_n is [q_1, z_n + C_(n+1)], where
+      C_(k+1) is zero.
     - ``outer``: True if there is a bracket [q_1 + x, y + C_1].
-    - ``leading``: True if x may be non-zero. In this case, the coefficient of the second pool element in y is
-      one.
-    - ``inner``: the number k of nested brackets C_1, ..., C_k. They have the form C_n = [q_1, z_n + C_(n+1)],
-      where C_(k+1) is zero.
+    - ``leading``: if False, x is zero. If True, x may be non-zero, and the coefficient of the second pool
+      element in y is one.
     - ``extra``: indices of pool elements. For each index n there is a bracket [e_n, w_n], where e_n is the
-      pool element with this index.
+      pool element with the index n.
     """
 
     outer: bool = False
@@ -270,12 +271,12 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Express an argument, up to grade ``limit``, by the pool and by new brackets of the given shape.
+        """Express an argument, up to grade ``limit``, by pool elements and new brackets of the given shape.
         Return the row of the argument, or None if no suitable brackets are found.
 
-        The equations contain products of the unknowns x and y of :class:`_Shape`. In each iteration, known
-        values replace one factor of every such product. The function solves the resulting linear equations.
-        """
+        The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
+        iteration. Each iteration replaces one factor of every product by a known value, and solves linear
+        equations."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -302,8 +303,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of those elements of ``pool[2:]`` that have the least grade. Indices are counted
-        from the beginning of ``pool``."""
+        """Return the indices of the pool elements with the least grade. The first two pool elements are not
+        considered."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -324,8 +325,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
-        there are several solutions, a random one may be returned."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. A
+        search with random numbers may choose one of several solutions at random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -344,8 +345,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return a pair (name, polynomial) for each unknown of the linear equations. The polynomial is the
-        coefficient of the unknown."""
+        """Return a pair (name, polynomial) for each unknown of the linear equations. In the equations, the
+        polynomial is the factor of the unknown."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -366,8 +367,8 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the new brackets that ``shape`` describes to the pool, and return three values. ``numbers``
-        maps the names of the unknowns to their values.
+        """Add the new brackets that ``shape`` describes to the pool. ``numbers`` maps the names of the
+        unknowns to their values. Return three values:
 
         - The row of the argument.
         - The argument as a polynomial.
