@@ -4,10 +4,11 @@ A partitioned method has weights b_i and two tableaux, a_ij and ahat_ij. Let an 
 child j. An edge that points away from the root has kind 0 and gives the factor a_ij in the elementary weight.
 An edge that points to the root has kind 1 and gives the factor ahat_ij.
 
-If the root is moved across an edge, the direction of the edge does not change, but the kind changes.
-Symplectic methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Hence the elementary weights before and after the
-move of the root add up to a product of elementary weights of smaller trees. The order conditions are
-therefore indexed by free trees with directed edges.
+A move of the root across an edge changes the kind of the edge, but not its direction. Symplectic methods
+satisfy b_i ahat_ij + b_j a_ji = b_i b_j. Let t and t' be rooted trees that differ by a move of the root
+across one edge. The sum of their elementary weights is the product of the elementary weights of two smaller
+trees. If the conditions of lower order hold, the conditions of t and t' are equivalent. Hence the order
+conditions are indexed by free trees with directed edges.
 
 A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. Here ``kind`` is the kind of
 the edge to the parent. The branches of a vertex are sorted by their bytes, in descending order.
@@ -31,7 +32,7 @@ _HUNG = (b"\2", b"\3")
 
 @lru_cache(maxsize=1 << 17)
 def branches(tree: DirectedTree) -> tuple[Branch, ...]:
-    r"""Return the branches at the root.
+    r"""Return the branches at the root as pairs (kind of the edge, subtree).
 
     >>> branches(b"\0\2\3")
     ((0, b'\x00'), (1, b'\x00'))
@@ -92,7 +93,7 @@ def text(tree: DirectedTree) -> str:
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """Return every rooted tree with directed edges exactly once. These trees index the order conditions
-    of partitioned Runge-Kutta methods whose two tableaux have equal weights b.
+    of partitioned Runge-Kutta methods with the same weights b in both tableaux.
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
@@ -119,8 +120,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     if vertices < 1:
         return ()
-    # A free tree has one or two centroids. Each branch of a single centroid has less than half of the
-    # vertices. Two centroids are joined by an edge, which divides the tree into halves.
+    # A free tree has one or two centroids. At a single centroid, each branch has less than half of the
+    # vertices. The edge between two centroids divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -130,11 +131,11 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree with the root at the vertex that gives the simplest order condition.
+    """Choose a root that gives a simple order condition. Return the tree with this root.
 
-    Let n_0 be the number of edges of kind 0, and n_1 the number of edges of kind 1. Both depend on the root.
-    The root is chosen such that min(n_0, n_1) is least. If several roots give the least value, choose the
-    least height. If several roots remain, choose the least n_1.
+    For a given root, let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1. The first criterion is
+    the least value of min(n_0, n_1). If roots tie, the tree of least height is chosen. If roots still tie,
+    the least n_1 is chosen. The last criterion is the least byte string.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -159,8 +160,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees for each edge at the root.
 
-    The edge separates the tree into u, which contains the root, and v. Yield u, v, and the whole tree with
-    the root moved across the edge.
+    The edge separates the tree into two parts u and v. The root belongs to u. The third tree is the whole
+    tree, with the root moved across the edge.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -172,8 +173,8 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the vertices that :func:`representative` can choose as root. Several
-    vertices can satisfy the criteria equally well."""
+    """Return the preorder indices of the roots that tie under the first three criteria of
+    :func:`representative`."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])
@@ -181,8 +182,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 if the root is at ``place``. A move of the root
-        # across an edge changes the kind of this edge only.
+        # ``hats[place]`` is the number of edges of kind 1 if the root is at ``place``. If the root moves
+        # across an edge, only the kind of this edge changes.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
@@ -195,8 +196,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # ``above[place]`` is the length of the longest path that starts at the vertex ``place`` and first
-        # goes to its parent. From there, the path goes further up, or down into another branch of the parent.
+        # Consider the paths from the vertex ``place`` that begin with the edge to its parent.
+        # ``above[place]`` is the number of edges of the longest of these paths.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])
@@ -237,7 +238,7 @@ def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
 
 @lru_cache(maxsize=256)
 def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
-    """Return all multisets of branches with ``vertices`` vertices in total. No branch has more than
+    """Return all multisets of branches that have ``vertices`` vertices together. Each branch has at most
     ``largest`` vertices."""
     return tuple(_multisets_in_turn(vertices, largest))
 

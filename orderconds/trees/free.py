@@ -1,10 +1,12 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
-The order conditions of symplectic Runge-Kutta methods are indexed by free trees. Let phi be the elementary
-weight and o Butcher's product of rooted trees. The relation b_i a_ij + b_j a_ji = b_i b_j implies the
-following equation for all rooted trees u and v: phi(u o v) + phi(v o u) = phi(u) phi(v) (Sanz-Serna and Abia
-1991; HLW VI.7.1). In particular, phi(u o u) = phi(u)^2/2. Hence the order condition of u o u follows from the
-order condition of u. A free tree is called superfluous if some choice of the root gives a tree u o u.
+The order conditions of symplectic Runge-Kutta methods are indexed by free trees. The tableau a_ij and the
+weights b_i of these methods satisfy b_i a_ij + b_j a_ji = b_i b_j. Let phi be the elementary weight, and let
+o be Butcher's product of rooted trees. Then phi(u o v) + phi(v o u) = phi(u) phi(v) for all rooted trees u
+and v (Sanz-Serna and Abia 1991; HLW VI.7.1).
+
+A free tree is called superfluous if it has the form u o u for a suitable root. In this case,
+phi(u o u) = phi(u)^2/2. Hence the order condition of u o u follows from the order condition of u.
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -43,8 +45,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if a tree is superfluous: without one of its edges, the tree consists of two equal rooted
-    trees. The ends of the removed edge are the roots. The order condition of such a tree is not needed.
+    r"""Return True if a tree is superfluous. A tree is superfluous if one of its edges joins
+    the roots of two equal rooted trees. Its order condition follows from a condition of lower order.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)
@@ -65,9 +67,9 @@ def representative(tree: Tree) -> Tree:
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
     r"""Yield three trees for each edge at the root of a canonical tree.
 
-    The edge separates the tree into u, which contains the root, and v. Yield u, v, and the whole tree with
-    the root moved across the edge. The whole tree is u o v before the move and v o u after the move, where o
-    is Butcher's product.
+    The edge separates the tree into two parts u and v. The root belongs to u. Hence the given tree is u o v,
+    where o is Butcher's product. The three trees are u, v and v o u. The last tree is the given tree with the
+    root moved across the edge.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')
@@ -80,8 +82,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
     r"""Yield a pair (rooting, moves) for each vertex of a canonical tree. Here ``rooting`` is the tree with
-    this vertex as root. The root is moved to this vertex step by step, across one edge at a time. ``moves``
-    contains one :data:`Move` for each step.
+    this vertex as root. ``moves`` contains one :data:`Move` for each edge on the path from the given root to
+    this vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

@@ -1,14 +1,14 @@
-"""Products of trees: Butcher's product, and grafting.
+"""Two products of trees: Butcher's product and grafting.
 
 Let F(t) be the elementary differential of a tree t. Grafting u onto v corresponds to the derivative of F(v)
-in the direction F(u). Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet
-2001).
+in the direction F(u). Unordered trees with the grafting product form the free pre-Lie algebra (Chapoton and
+Livernet 2001).
 
 Now let t be an ordered tree with the branches t_1, ..., t_k at the root. Let f be the vector field of the
-differential equation. Then F(t) is obtained from f by k derivatives, first along F(t_k), and finally along
-F(t_1). In each derivative, the direction is a fixed element of the Lie algebra. The derivatives do not
-commute. A grafted tree adds a derivative after the existing ones. Hence the grafted tree becomes the leftmost
-branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+differential equation. F(t) results from f by k derivatives. The directions are F(t_k), ..., F(t_1), in this
+order. Each direction is treated as a constant element of the Lie algebra. These derivatives do not commute.
+Grafting onto the root takes one more derivative, after the k derivatives. Hence the grafted tree becomes the
+leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -60,10 +60,10 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Return the forests that result if each tree of ``word`` is attached to a vertex of ``onto``, in all
-    possible ways. A forest that results from several ways is returned several times.
+    possible ways. The tuple contains one forest for each way, so a forest can occur several times.
 
-    Trees that are attached to the same vertex keep their order. The existing branches of the vertex are to
-    the right of the attached trees.
+    Trees that are attached to the same vertex keep their order. They are placed to the left of the existing
+    branches of this vertex.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')

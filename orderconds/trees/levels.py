@@ -1,4 +1,5 @@
-"""Level sequences of trees and forests: the levels of the vertices in preorder, one byte for each vertex.
+"""Level sequences of trees and forests. A level sequence contains the level of each vertex as one byte, in
+preorder.
 
 Roots have level 0. A tree is a forest with one root. The type ``bytes`` is fast to hash and to compare.
 
@@ -110,8 +111,8 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` if the text is too long or a character is not allowed.
-    Empty or unbalanced brackets raise the same error.
+    Raises :class:`~orderconds.errors.InputError` if the text is too long, a character is not allowed, or
+    brackets are empty or unbalanced.
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:

@@ -1,8 +1,8 @@
 """Enumeration of ordered (planar) rooted trees and ordered forests.
 
-An ordered forest with n vertices is a sequence of n levels that starts with 0. No level exceeds the preceding
-level by more than one. The forest is a tree if level 0 occurs only at the start. Sequences are listed in
-descending lexicographic order. Each sequence is computed in place from the preceding sequence.
+An ordered forest is encoded by the levels of its vertices in preorder. The first level is 0. No level exceeds
+the preceding level by more than one. The forest is a tree if level 0 occurs only at the start. Sequences are
+listed in descending lexicographic order. Each sequence is computed in place from the preceding sequence.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Find the last level that is greater than ``lowest``. Decrease this level by one. After it, let the
-        # levels increase by one from vertex to vertex.
+        # Find the last level that is greater than ``lowest``. Decrease this level by one. Each later level
+        # becomes one more than the preceding level.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

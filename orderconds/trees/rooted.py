@@ -24,9 +24,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # Let p be the last vertex that is neither the root nor a child of the root. Let q be the parent of p.
-        # The levels of the vertices q, ..., p - 1 form a sequence. From p to the last vertex, overwrite the
-        # levels by repetitions of this sequence.
+        # Number the vertices in preorder. Let p be the last vertex of level 2 or more. Let q be the parent of
+        # p. Replace the levels from p to the end. The new levels repeat the levels of q, ..., p - 1.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

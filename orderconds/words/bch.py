@@ -1,9 +1,9 @@
 """The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's formula for the coefficients.
 
-The coefficients of words in the series have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so no
-exponentials or logarithms are expanded. A Lie element is determined by its coefficients at Lyndon words. A
-bracketed Lyndon word is equal to the word itself plus greater words. Hence the coordinates in the basis of
-bracketed Lyndon words follow by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
+Goldberg's formula gives the coefficient of each word in closed form (Duke Math. J. 23 (1956) 13). The
+coefficients of Lyndon words determine a Lie element. A bracketed Lyndon word expands to this word plus a
+combination of greater words. Hence the coordinates in the basis of bracketed Lyndon words follow by forward
+substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
 """
 
 from __future__ import annotations
@@ -50,12 +50,12 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
-    Let m be the number of runs of equal letters in the word. Let s_1, ..., s_m be the lengths of the runs.
-    The polynomials G_s are defined by G_1 = 1 and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first
-    letter is A, the coefficient of the word is the integral from t = 0 to t = 1 of the polynomial
-    t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t). Here [x] is the integer part of x. If the first
-    letter is B, the integral is multiplied by (-1)^(n-1), where n is the number of letters (Goldberg 1956,
-    Thm 1 and Cor. 2).
+    Divide the word into runs of equal letters. Let m be the number of runs, and let s_1, ..., s_m be their
+    lengths. The polynomials G_s are defined by G_1 = 1 and G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. Let
+    [x] be the integer part of x. Integrate t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to
+    t = 1. If the first letter is A, the coefficient is this integral. If the first letter is B, the
+    coefficient is (-1)^(n-1) times the integral, where n is the number of letters (Goldberg 1956, Thm 1 and
+    Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)

@@ -1,9 +1,9 @@
-"""Convolution of functions on words, and power series of such functions. Each call computes the value on one
-word.
+"""Convolution of functions on words, and power series of functions on words.
 
 A function on words represents a series. The value on a word is the coefficient of this word. The convolution
-of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the rest v. If a
-function is zero on the empty word, a power series of the function is a finite sum on each word.
+of f and g on a word w is the sum of f(u) g(v) over all divisions of w into a prefix u and the rest v. If f
+is zero on the empty word, its m-fold convolution is zero on words of fewer than m letters. Hence a power
+series of f is a finite sum on each word.
 """
 
 from __future__ import annotations
@@ -33,19 +33,20 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
     """Return the value of sum_{m>=1} scales[m - 1] f^m on a non-empty word.
 
-    Here f^m is the m-fold convolution of f. The value of f on the empty word is replaced by zero. Hence the
-    terms with m > n are zero for a word of n letters, and n entries of ``scales`` are sufficient.
+    Here f^m is the m-fold convolution of f. The function treats the value of f on the empty word as zero. If
+    the word has n letters, the terms with m > n are zero. Hence n entries of ``scales`` are sufficient.
+    ``zero`` is the zero of the ring of values.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters. Start with m = 1.
+    # powers[end] is the value of f^m on the first ``end`` letters, here for m = 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
     # tails[end] contains the pairs (start, x), where x is the value of f on word[start:end] and start >= 1.
-    # Most values are zero. Pairs with x = 0 are omitted to save time.
+    # Pairs with x = 0 are omitted to save time, because most values of f are zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)

@@ -1,12 +1,12 @@
-"""Magnus, Fer and Cayley expansions in words, and the series of dexp, its inverse and the inverse of dcay.
+"""Magnus, Fer and Cayley expansions in words. Series of dexp, inverse dexp and inverse dcay.
 
 The expansions solve Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k and has weight
 k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the product X_{k_n} ... X_{k_1}.
-At time t, the coefficient of a word of weight n is t^n times the coefficient at t = 1. The functions return
-the coefficient at t = 1.
+The functions return coefficients at t = 1. At another time t, the coefficient of a word of weight
+n is multiplied by t^n.
 
-The series of dexp, its inverse and the inverse of dcay have the letters U and X. In these series, a word
-denotes the product of its letters in the written order.
+The other series have the letters U and X. In these series, a word denotes the product of its letters in the
+written order.
 
 Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas,
 Oteo and Ros, Physics Reports 470 (2009) 151.
@@ -31,10 +31,11 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in Y(1), where Y' = A(t) Y and Y(0) = I.
+    """Return the coefficient of the word k_1 ... k_n in Y(1).
 
-    The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral
-    equals the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
+    Y solves Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The coefficient is the
+    integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral equals the product of
+    1/(k_1 + ... + k_j) over j = 1, ..., n.
 
     >>> str(iterated_integral((1, 2)))
     '1/3'
@@ -44,12 +45,12 @@ def iterated_integral(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def magnus(word: Word) -> Fraction:
-    """Return the coefficient of a word in the Magnus expansion. The expansion is the Lie element Omega with
-    Y = exp(Omega), where Y is the solution of Y' = A(t) Y with Y(0) = I.
+    """Return the coefficient of a word in the Magnus expansion at t = 1. Let Y solve Y' = A(t) Y with
+    Y(0) = I. The Magnus expansion is the Lie element Omega with Y = exp(Omega).
 
     Letter k denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... The first letter of a word acts first. Hence
-    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12 at t = 1. The word
-    (2, 1) has the coefficient -1/12 in this term, and the word (1, 2) has the coefficient 1/12.
+    the word (2, 1) denotes X_1 X_2. For example, Omega contains the term -[X_1, X_2]/12. This term gives the
+    word (2, 1) the coefficient -1/12, and the word (1, 2) the coefficient 1/12.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -59,11 +60,11 @@ def magnus(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def cayley(word: Word) -> Fraction:
-    """Return the coefficient of a word in Omega, where Y = cay(Omega) solves Y' = A(t) Y with Y(0) = I. The
-    Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2).
+    """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
-    Letter k of the word denotes X_k in A(t) = X_1 + t X_2 + t^2 X_3 + .... Omega satisfies Omega' = A -
-    [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k.
+    Omega is defined by Y = cay(Omega) with the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). It satisfies
+    the equation Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -73,12 +74,12 @@ def cayley(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in F_n of the Fer expansion Y = exp(F_1) exp(F_2) exp(F_3) .... Here Y
-    is the solution of Y' = A(t) Y with Y(0) = I. The factor exp(F_1) acts last.
+    """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
-    F_n is the integral of A_n over time. The fields are A_1 = A and
-    A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. The series F_n contains no
-    words of weight less than 2^n - 1.
+    Let Y solve Y' = A(t) Y with Y(0) = I. The Fer expansion is Y = exp(F_1) exp(F_2) exp(F_3) .... Of these
+    factors, exp(F_1) acts last. F_n is the integral of a series A_n from 0 to t. The first series is A_1 = A.
+    The next ones are A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word
+    in F_n has weight 2^n - 1 or more.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -90,8 +91,8 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
-    The logarithm is the sum of F_2, F_3, ... and of brackets of these series. The brackets have weight ten
-    or more, because F_2 begins with weight 3 and F_3 with weight 7.
+    The logarithm equals F_2 + F_3 + ... plus brackets of these series. The lowest weights in F_2 and F_3 are
+    3 and 7. Hence the brackets have weight 10 or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -121,8 +122,8 @@ def dexp_inverse(length: int) -> Series:
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # Solve sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0 for B_n/n!. The equation holds because the product of
-        # x/(e^x - 1) and (e^x - 1)/x is one.
+        # Compute the coefficient B_n/n! of x^n in x/(e^x - 1). The product with (e^x - 1)/x is one. Hence
+        # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 
@@ -181,16 +182,17 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. The first letter of a word acts first. In the
-        # product F_n x, the factor x acts first. Hence ``head`` is a word of x, and ``tail`` a word of F_n.
+        # Compute F_n x - x F_n with x = ad_{F_n}^(k-1) A_n. In the product F_n x, the factor x acts first.
+        # Hence ``head`` is a word of the series x, and ``tail`` is a word of the series F_n. In the product
+        # x F_n, the two series are interchanged.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The factor
-    Y acts first."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. Y acts
+    first, so the first letters of the word belong to Y."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]

@@ -1,9 +1,9 @@
 """Hall bases of free Lie algebras, and the rewriting of brackets in these bases. The weight of a letter is a
 positive integer.
 
-Basis elements are sorted by weight. Basis elements of equal weight are in the order of their construction.
-Letters are basis elements. Let x and y be basis elements with x < y. The bracket [x, y] belongs to the basis
-if y is a letter. If y is a bracket [u, v], then [x, y] belongs to the basis if u <= x (M. Hall, Proc. AMS 1
+Basis elements are ordered by weight. Basis elements of equal weight are ordered as they are constructed. All
+letters are basis elements. Let x and y be basis elements with x < y. If y is a letter, then [x, y] is a basis
+element. If y is a bracket [u, v] with u <= x, then [x, y] is a basis element (M. Hall, Proc. AMS 1
 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are rewritten by antisymmetry
 and Jacobi's identity.
 """
@@ -117,10 +117,10 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # Let y = [u, v]. Then u < v, because y is a basis element. Also x < u, because [x, y] is not a
-            # basis element. By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The inner
-            # brackets have lower weight. The outer brackets have factors greater than x. Only finitely many
-            # basis elements have at most the weight of [x, y], so the recursion ends.
+            # Let y = [u, v]. Since y is a basis element, u < v. Since [x, y] is not a basis element, x < u.
+            # Use Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends: the brackets
+            # [x, u] and [x, v] have lower weight. The other two brackets have the same weight, but both
+            # factors are greater than x.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -1,8 +1,8 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-If the standard bracketing of a Lyndon word w is expanded, the result is w plus a combination of greater
-words. Hence the coordinates follow from the coefficients of Lyndon words by forward substitution (Reutenauer,
-Free Lie Algebras, Thm 5.1).
+The standard bracketing of a Lyndon word w expands to w plus a combination of greater words. Hence the system
+of equations for the coordinates is triangular. Forward substitution gives the coordinates from the
+coefficients of Lyndon words (Reutenauer, Free Lie Algebras, Thm 5.1).
 
 In this module, a word denotes the product of its letters in the written order. In the Magnus, Fer and Cayley
 expansions, the first letter of a word acts first. The function :func:`backwards` converts between these
@@ -40,8 +40,8 @@ def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
 
 
 def standard_bracketing(word: Sequence[Letter], key: Key | None = None) -> Bracket:
-    """Bracket a Lyndon word recursively, by splitting the word into its standard factors (Reutenauer, Section
-    5.1).
+    """Return the bracket of a Lyndon word. The function :func:`standard_factors` splits the word, and both
+    factors are bracketed recursively (Reutenauer, Section 5.1).
 
     >>> standard_bracketing("AABB")
     ('A', (('A', 'B'), 'B'))
@@ -68,8 +68,8 @@ def expand(bracket: Bracket) -> Series:
 def backwards(series: Mapping[Word, Fraction]) -> Series:
     """Reverse every word of a series.
 
-    There are two conventions: the first letter of a word acts first, or a word denotes the product of its
-    letters in the written order. Reversal converts from each convention to the other.
+    In one convention, the first letter of a word acts first. In the other convention, a word denotes the
+    product of its letters in the written order. Reversal converts between the two conventions.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -84,9 +84,10 @@ def coordinates_from_values(
 
     The Lie element is a series of words. Each word denotes the product of its letters in the written order.
     ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
-    ``words`` contains all Lyndon words of one weight, in ascending order. It may instead contain all
-    rearrangements of one Lyndon word that are Lyndon words, in ascending order. The function does not check
-    that the series is a Lie element.
+
+    ``words`` contains Lyndon words in ascending order: either all Lyndon words of one weight, or all Lyndon
+    words that consist of the same letters with the same multiplicities. ``key`` returns the sort key of a
+    letter. The function does not check that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

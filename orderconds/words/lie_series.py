@@ -27,10 +27,11 @@ Coordinates = dict[Word, Fraction]
 
 @dataclass(frozen=True)
 class LieSeries:
-    """A Lie series. ``coordinates`` maps a weight to the coordinates of the series up to this weight.
+    """A Lie series.
 
-    ``letters`` returns all letters up to a given weight, in ascending order. ``weigh`` returns the weight of
-    a letter. ``summary`` is a one-line description.
+    ``coordinates`` returns the coefficients of bracketed Lyndon words up to a given weight. ``letters``
+    returns all letters up to a given weight, in ascending order. ``weigh`` returns the weight of a letter.
+    ``summary`` is a one-line description.
 
     >>> SERIES["bch"].letters(5), SERIES["magnus"].letters(3)
     (('A', 'B'), ('X1', 'X2', 'X3'))
@@ -111,9 +112,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that maps a weight to the coordinates of a Lie element up to this weight.
-
-    The Lie element is a series of words. ``value`` returns the coefficient of a word in this series.
+    """Return the function ``coordinates`` of a :class:`LieSeries`. ``value`` returns the coefficient of a
+    word in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -161,10 +161,9 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function that computes the coordinates of a series sum_k c_k ad_U^k X.
+    """Return the function ``coordinates`` of a series sum_k c_k ad_U^k X with numbers c_k.
 
-    U and X are letters, and c_0, c_1, ... are numbers. The Lyndon words in this series are X, U X, U U X, and
-    so on.
+    U and X are letters with U < X. Hence the Lyndon words in the series are X, UX, UUX, and so on.
     """
 
     def coordinates(weight: int) -> Coordinates:

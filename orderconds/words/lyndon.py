@@ -1,8 +1,8 @@
-"""Lyndon words: words that are smaller than each of their proper suffixes.
+"""Lyndon words: words that are lexicographically smaller than each of their proper suffixes.
 
-The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1). Hence the coefficients of Lyndon words in a group-like series are
-independent, and they determine the coefficients of all words.
+With the shuffle product, every word is a polynomial in Lyndon words (Radford 1979; Reutenauer, Free Lie
+Algebras, Thm 6.1). The Lyndon words are algebraically independent. Hence the coefficients of Lyndon words in
+a group-like series are independent. These coefficients determine the coefficients of all words.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ def lyndon_words(
     if any(w < 1 for w in weights):
         raise ValueError("every letter must have a positive weight")
     # This is the algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of
-    # lengths. A word is built letter by letter. Let p be the period of the word. If a new letter equals the
-    # letter p positions earlier, the period does not change. If the new letter is greater, the period becomes
-    # the length of the extended word.
+    # lengths. A word is built letter by letter. The word repeats its first p letters, where p is its period.
+    # The new letter is compared with the letter p positions before it. If both are equal, p does not change.
+    # If the new letter is greater, p becomes the length of the extended word.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:

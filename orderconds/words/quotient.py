@@ -1,10 +1,10 @@
 """Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
-The values of these functionals determine an element of the free algebra modulo the ideal. The functionals are
-therefore coordinates on the group-like elements of the quotient. Two functionals are called equivalent if
-their difference is a combination of products of functionals of lower weight. The equivalence classes form the
-dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore,
-Ann. Math. 81 (1965) 211).
+The values of these functionals determine an element of the quotient of the free algebra by the ideal. In
+particular, the values determine each group-like element of the quotient. Two functionals are called
+equivalent if their difference is a combination of products of functionals of lower weight. The equivalence
+classes form the dual space of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras, Chapters 1 and
+6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """Return a basis of the functionals on words of length ``length`` that vanish on the two-sided ideal with
     the given generators.
 
-    The first word of a functional does not occur in the other functionals. First words are Lyndon words where
-    this is possible.
+    The first word of a functional does not occur in the other functionals. Lyndon words are preferred as
+    first words.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -37,10 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each row of the matrix is an element of the ideal. Each column belongs to a word. A column without
-        # a pivot gives one functional. The word of the column is the first word of the functional. Pivots are
-        # chosen from the left. Lyndon words are placed at the right, where columns without a pivot are more
-        # likely.
+        # Each row of the matrix is an element of the ideal. Each column is a word. A column without a pivot
+        # gives a functional that has the word of the column as first word. Elimination chooses pivots from
+        # the left. Hence Lyndon words are placed at the right, such that they often become first words.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -48,7 +47,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return a largest subset of the functionals that is linearly independent on Lie elements. Functionals
+    """Return a largest set of given functionals that are linearly independent on Lie elements. Functionals
     whose first word is a Lyndon word are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
@@ -87,7 +86,7 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v for words u and v and a generator g. All words in the product are
+    """Yield the products u g v of a word u, a generator g and a word v. Each product contains only
     rearrangements of ``content``."""
     for generator in generators:
         some = next(iter(generator))

@@ -1,12 +1,11 @@
 """Words as polynomials in Lyndon words, with the shuffle product as multiplication (Radford 1979).
 
-Every word is a concatenation of Lyndon words l_1 > ... > l_k, where l_j is repeated i_j times. Take the
-shuffle product of all these Lyndon words, with repetitions, and divide it by i_1! ... i_k!. The result is the
-word plus a combination of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
+Every word is a concatenation of Lyndon words l_1 > ... > l_k, where l_j occurs i_j times. Take the shuffle
+product of all these factors. Divide this product by i_1! ... i_k!. The result is the word plus a combination
+of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
 
-In a product of exponentials, the coefficient of a shuffle product is the product of the coefficients of its
-factors. Hence the polynomial of a word gives the coefficient of the word in terms of the coefficients of
-Lyndon words.
+In a group-like series, the coefficient of a shuffle product is the product of the coefficients of the
+factors. Hence the polynomial of a word expresses the coefficient of the word by coefficients of Lyndon words.
 """
 
 from __future__ import annotations

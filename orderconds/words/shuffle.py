@@ -10,8 +10,8 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter is a hashable value. Functions that compare letters use the operator ``<``, or a key function if
-one is given."""
+"""A letter is a hashable value. Functions that compare letters use the operator ``<``. If a key function is
+given, the functions compare keys instead."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
