@@ -111,18 +111,16 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` if the text is too long, a character is not allowed, or
-    brackets are empty or unbalanced.
+    Raises :class:`~orderconds.errors.InputError` if the tree has more than 250 vertices, a character is
+    not allowed, or brackets are empty or unbalanced.
     """
     levels, depth = bytearray(), 0
-    if len(written) > 4 * _LARGEST:
-        raise InputError(
-            "the text of a tree is too long", expected=f"a tree with at most {_LARGEST} vertices"
-        )
     compact = re.sub(r"[\s,]", "", written)
     for place, sign in enumerate(compact):
         before = compact[place - 1 : place]
         if sign in ".[":
+            if len(levels) == _LARGEST:
+                raise InputError("a tree is too large", expected=f"at most {_LARGEST} vertices")
             levels.append(depth)
             depth += sign == "["
         elif sign == "]" and depth and before != "[":

@@ -37,6 +37,13 @@ def test_anything_but_balanced_brackets_is_refused(written):
         parse(written)
 
 
+@pytest.mark.parametrize("written", ["[" * 249 + "." + "]" * 249, ", ".join(["."] * 250)])
+def test_a_tree_has_at_most_250_vertices(written):
+    assert len(parse(written)) == 250
+    with pytest.raises(InputError, match="at most 250 vertices"):
+        parse(f"[{written}]")
+
+
 @pytest.mark.parametrize("vertices", range(1, 8))
 def test_density_is_the_number_of_vertices_times_that_of_the_branches(vertices):
     for tree in ordered_trees(vertices):
