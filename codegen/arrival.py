@@ -72,9 +72,10 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The zeros of the event functions, in the order in which the run found the zeros."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run, and OK if the run reached its end time.
+    """The reason for the end of the run.
 
-    If a step failed, ``status`` is the status of this step.
+    The value is OK if the run reached its end time, and EVENT if a terminal event ended the run. If a step
+    failed, the value is the status of this step.
     """
 
 
@@ -111,7 +112,7 @@ class Statistics:
 
     - ``sweeps``: for each block, the number of iterations in the whole run.
     - ``most``: the largest number of iterations for one block in one step.
-    - ``failed``: the number of the block that could not be solved, or 0. The first block has the number 1.
+    - ``failed``: the index of the block that could not be solved, or 0. The first block has the index 1.
     - ``matrices``: the number of Newton matrices that were computed.
     """
 

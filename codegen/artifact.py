@@ -73,8 +73,9 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace a module of another scene or method.
 
-        ``entry`` is the manifest entry of the other module. A module replaces a module with the same name and
-        the same target. If one of these modules was emitted with the option ``--prefix``, no error is raised.
+        ``entry`` is the manifest entry of the old module. This module replaces the old module if both have
+        the same name and target. If one of the two was emitted with the option ``--prefix``, no error is
+        raised.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -94,7 +95,7 @@ def writing(folder: Path) -> Iterator[None]:
     Before the block begins, temporary files of killed processes are removed.
     """
     with locked(folder) as held:
-        if held:  # without the lock, another process may be writing a temporary file
+        if held:  # otherwise a temporary file may belong to a process that is still writing
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)

@@ -1,6 +1,7 @@
 """Compile emitted C to a shared object in a cache.
 
-If the cache contains a shared object of the same sources, compiler and flags, nothing is compiled.
+If the cache already contains the shared object for the sources, the compiler and the flags, nothing is
+compiled.
 
 Two processes may build the same module at the same time. Each process compiles in its own temporary folder
 and writes the finished file atomically into the cache (:mod:`codegen.cache_entry`).

@@ -31,11 +31,12 @@ class CertifiedOrder:
 
     - ``certificate`` is the kind of proof. :meth:`text` explains each kind.
     - ``failing`` contains the conditions of order ``order`` + 1 that the method violates.
-    - ``bound`` is true if ``order`` is a lower bound: all examined conditions hold.
+    - ``bound`` is true if the check of the conditions ended at a limit. The method then has at least the
+      order ``order``.
     - ``classical`` is the name of a classical family, or ''. If ``classical`` is a name, the group is abelian
       and ``order`` is the order in this classical family.
-    - ``radius`` is usually ''. If the uncertainty of the coefficients exceeds the rounding error of a double,
-      ``radius`` is this uncertainty and the certificate is "none".
+    - If the uncertainty of the coefficients exceeds the rounding error of a double, ``radius`` is this
+      uncertainty and the certificate is "none". Otherwise ``radius`` is ''.
     """
 
     order: int
@@ -71,8 +72,8 @@ class CertifiedOrder:
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions apply to a method.
 
-    If code can be emitted for the family of the method, the result comes from
-    :meth:`codegen.lower.base.Lowering.conditions`. Otherwise the family has the name ``method.family_label``.
+    If code can be emitted for the method, :meth:`codegen.lower.base.Lowering.conditions` selects the family.
+    Otherwise the result is the family with the name ``method.family_label``.
     """
     from orderconds import families
 
@@ -84,11 +85,11 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method for a scene.
 
-    If the group of the scene is abelian, the methods of some families reduce to classical methods. If the
-    coefficients of such a method have enough digits, the result is the order in the classical family.
+    On an abelian group, the methods of some families reduce to methods of a classical family. The result is
+    then the order in the classical family, if the coefficients have enough digits to decide this order.
 
-    In all other cases, the result is the order in the family of the method. MethodError is raised if the
-    coefficients have too few digits for this order.
+    In all other cases, the result is the order in the family of the method. If the coefficients have too few
+    digits to decide this order, MethodError is raised.
     """
     from orderconds.checking import check
 
@@ -139,7 +140,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # In double precision, coefficients that are given as doubles are emitted without rounding.
+    # Some methods have no coefficients. Coefficients that are doubles are emitted without rounding. In both
+    # cases the radius is ''.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -32,8 +32,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # ``dlopen`` does not read the file of an open library again. The library is closed, because its
-            # file may be rebuilt.
+            # The file of the library may be rebuilt. ``dlopen`` reads the new file only after the old library
+            # is closed.
             self._ffi.dlclose(self._library)
             raise
 
@@ -155,10 +155,10 @@ class CompiledIntegrator(Integrator):
         """Yield two lists of arguments for a C function.
 
         The first list contains the callback for the run-time inputs. The second list contains the structure
-        for the iteration counts. If the C function has no such argument, the list is empty.
+        for the iteration counts. If the C function does not take the argument of a list, this list is empty.
 
-        If the callback fails, its error is raised at the end of the ``with`` block. Otherwise the iteration
-        counts are added to ``begun.statistics``.
+        This method is used in a ``with`` statement. If the callback fails, the error of the callback is
+        raised at the end of the block. Otherwise the iteration counts are added to ``begun.statistics``.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
@@ -232,7 +232,7 @@ class _Buffers:
 
 
 class _Callback:
-    """A callback for C code. A Python function computes the run-time inputs at a given time.
+    """A Python function that C code calls to compute the run-time inputs at a given time.
 
     If the Python function raises an error, the attribute ``failure`` is this error. After an error, all
     run-time inputs are NaN, and the step fails.

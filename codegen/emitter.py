@@ -57,7 +57,7 @@ SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The costs of operations. An addition or a product costs 1. Functions that are not listed cost 12.
 
-If a step has two versions, the compiler chooses the cheaper one.
+If a step has two versions, the compiler chooses the version with the lower total cost.
 """
 
 
@@ -85,8 +85,8 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the chosen classical form of the equations, or None. If ``form`` is not None, ``scene``
-      contains the equations in this form.
+    - ``form`` is the classical form that the user chose, or None. If ``form`` is not None, ``scene`` contains
+      the equations of this form.
     """
 
     kernel: Kernel
@@ -94,7 +94,7 @@ class Compiled(Optimised):
     asked: str = AUTO
     form: ClassicalForm | None = None
     compensated: bool = False
-    """True if the step uses compensated summation. The state then also contains rounding errors."""
+    """True if the step uses compensated summation. The state then contains correction terms."""
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -132,10 +132,10 @@ def compile_method(
     - ``solver``: the solver of implicit equations.
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
-    - ``integrate``: add a run to a given end time with output at given times.
-    - ``events``: the number of event functions of the run to an end time.
-    - ``dense``: use the continuous extension of the tableau at output times.
-    - ``compensate``: extend the state by the rounding errors of compensated summation.
+    - ``integrate``: add a run to a given end time. The run returns the states at given output times.
+    - ``events``: the number of event functions of this run.
+    - ``dense``: compute the states at output times with the continuous extension of the tableau.
+    - ``compensate``: use compensated summation. The state then contains correction terms.
     """
     request = RunRequest(**run)
     scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
@@ -186,7 +186,7 @@ def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunReque
     """Return the compiled method with the requested features.
 
     The possible features are compensated summation, the derivative of a step, and a run to a given end time.
-    ``degree`` is the degree of the Taylor polynomial of a step, or 0 for other methods.
+    If the method is a Taylor method, ``degree`` is the degree of the polynomial. Otherwise ``degree`` is 0.
     """
     method = compiled.method
     if request.compensate:
@@ -215,8 +215,8 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    C compilers do not vectorise a loop over the systems if the loop contains function calls. Therefore the
-    code of most explicit steps has no separate functions. MethodError is raised for a semilinear equation.
+    If a loop over the systems contains function calls, C compilers do not vectorise the loop. Therefore most
+    explicit steps are emitted without outlined functions. MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -236,7 +236,8 @@ def with_batch(compiled: Compiled) -> Compiled:
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
     """Return a compiled method on a scene whose formulas contain large matrices.
 
-    MethodError is raised for the options --jacobian, --compensate, --dense, --events and --integrate.
+    The options --jacobian, --compensate, --dense, --events and --integrate are not available. If one of these
+    options is given, MethodError is raised.
     """
     options = {
         "--jacobian": jacobian,
@@ -279,8 +280,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # A method with a cut-off truncates the series of dexp^{-1}. Therefore it cannot use the closed form
-        # of the coordinate map ``scene.coordinates``.
+        # A method with a cut-off uses a truncated series of dexp^{-1}. The closed form in
+        # ``scene.coordinates`` would replace the truncated series.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -291,7 +292,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Return an estimate of the cost of a step. An addition costs 1 (:data:`WEIGHTS`).
+    """Return an estimate of the cost of a step. The unit is the cost of an addition (:data:`WEIGHTS`).
 
     The estimate assumes :data:`SWEEPS` iterations for each implicit equation.
     """
@@ -322,21 +323,21 @@ def emit(
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module in a target language.
 
-    ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
-    ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. ``family`` is the family of a tableau,
-    by default the family in which its order is highest. External names begin with ``prefix``. The default
-    prefix contains the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are
-    signals of the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or
-    ``body``. ``adaptive`` adds a run with step-size control. ``jacobian`` adds the derivative of a step.
-    ``solver`` is the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or
-    ``auto`` for the cheapest. ``form`` is the key of a classical form of the scene, by default the form in
-    which the scene states its equations. ``batch`` adds a C function that steps many independent systems
-    (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
-    output at given times. With ``adaptive``, this run has a smallest and a largest step size. ``events`` is
-    the number of event functions of this run. ``dense`` uses the continuous extension at output times.
-    ``compensate`` extends the state by the rounding errors of compensated summation. These errors are zero
-    in the initial state. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and
-    InputError for a prefix that is not a valid name in C.
+    - ``scene``: a name of the gallery, the path of a Python file, or a problem.
+    - ``method``: ``FAMILY:TABLEAU``, ``TABLEAU``, or an object of :class:`orderconds.Tableau`.
+    - ``family``: the family of a tableau, by default the family in which the order of the tableau is highest.
+    - ``prefix``: the beginning of external names, by default the names of the scene and the method.
+    - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
+    - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or
+      ``auto``, which selects a fast and robust solver.
+    - ``form``: the key of a classical form, by default the form in which the scene states its equations.
+    - ``adaptive``: add a run with step-size control.
+    - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
+    - ``integrate``: add a run to a given end time. With ``adaptive``, the run accepts bounds on step sizes.
+    - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
+
+    The other arguments are those of :func:`compile_method`. Errors: the errors of :func:`compile_method`,
+    UnknownName for an unknown target, and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -375,9 +376,9 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    The header shows the command that emits the module. ``named`` contains the names of the scene and the
-    method in this command. ``order`` is the result of :func:`certified_order`. If ``order`` is None, the
-    order is computed.
+    The header of the module shows the command that emits the module. The names of the scene and the method
+    in this command are ``named["scene"]`` and ``named["method"]``. ``order`` is the result of
+    :func:`certified_order`. If ``order`` is None, the order is computed.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -410,7 +411,7 @@ def emit_compiled(
 
 
 def options_of(compiled: Compiled, precision: str) -> list[str]:
-    """Return the options of the command that emits the module, without ``--prefix``."""
+    """Return the options of the command that emits ``compiled``. The option ``--prefix`` is omitted."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
@@ -425,8 +426,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A run-time argument with a new default value needs two options: ``--parameter p`` and
-    # ``--parameter p=value``.
+    # ``--parameter p`` makes p a run-time argument. ``--parameter p=value`` sets the value of p. A run-time
+    # argument with a new default value needs both options.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

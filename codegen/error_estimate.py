@@ -6,8 +6,8 @@ called blind.
 
 A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
 In these two cases, the order of the estimate and the order of the local error are measured. For this purpose,
-very short steps of two sizes are computed with 100 digits. The local error of a step of size h is estimated
-by its difference from the result of two steps of size h/2.
+very short steps of two sizes are computed with 100 digits. The local error of a step of size h is taken as
+the difference between the result of this step and the result of two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""A number in the formula for the smaller of the two step sizes.
+"""A number in the formula for the smaller step size. Orders are measured with two step sizes.
 
-The smaller size is T times 10^(-SMALLEST / (p + 2)). Here T is the length of the time span of the scene, and
-p is the order of the method.
+The smaller step size is T times 10^(-SMALLEST / (p + 2)). Here T is the length of the time span of the scene,
+and p is the order of the method.
 """
 
 ROUNDING = 1e-90
@@ -43,7 +43,11 @@ most ROUNDING times max(1, m). Here m is the largest absolute value of an entry 
 
 RATIO = 8
 HIGHER = 0.5
-"""An estimate is blind if its measured order is larger than that of the local error by more than HIGHER."""
+"""The tolerance for measured orders.
+
+If the measured order of an estimate exceeds the measured order of the local error by more than HIGHER, the
+estimate has a higher order than the local error.
+"""
 
 LARGEST_CUTOFF = 12
 
@@ -60,14 +64,14 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on t alone, stages at the same time have the same value of the field. The method
-    # and its embedded method can then give the same result, even if they have different orders.
+    # If the field depends on the time alone, the method and its embedded method can give the same result,
+    # even if the two methods have different orders.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
             "and its embedded method give the same result or the same leading error",
             where=scene.name,
-            expected="an embedded method with another leading error on this scene",
+            expected="an embedded method whose leading error on this scene differs from that of the method",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",
         )
     if order == lower_order and is_blind(method, embedded, scene, order):
@@ -112,8 +116,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # ``lower`` returns a program in which all stages are unknowns of an iteration. ``blocks.run`` changes
-    # explicit stages to assignments, because an explicit stage needs no iteration.
+    # ``lower`` returns a program that computes all stages by iteration. An explicit stage needs no iteration.
+    # Therefore ``blocks.run`` changes explicit stages to assignments.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -133,7 +137,7 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 def _gap(a: State, b: State) -> Scalar:
     """Return the largest difference between the entries of two states.
 
-    If the bound for rounding errors (:data:`ROUNDING`) is not exceeded, the result is 0.
+    If the difference can be explained by rounding errors (:data:`ROUNDING`), the result is 0.
     """
     largest = max(abs(x - y).mid() for x, y in zip(a, b, strict=True))
     return largest if largest > ROUNDING * max(1, *(abs(x).mid() for x in a)) else 0
@@ -146,9 +150,9 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 def _hint(method: Method, scene: Problem) -> str:
     """Return a hint for a user whose method has a blind error estimate (:func:`is_blind`).
 
-    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The hint recommends a
-    larger cut-off: the smallest one for which the estimate is not blind. If no cut-off up to LARGEST_CUTOFF
-    is suitable, the hint recommends another tableau.
+    The cut-off of a method is the number of brackets in the series of dexp^{-1}. The cut-off is increased
+    until the estimate is no longer blind, and the hint recommends this cut-off. If the estimate is blind for
+    all cut-offs up to LARGEST_CUTOFF, the hint recommends another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -20,9 +20,10 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """Raised if the families cannot use the format of a tableau, or if the tableau claims no order in them.
+    """Raised if a tableau is not suitable for the families of a search.
 
-    ``claimed`` contains the families in which the tableau claims an order.
+    Either the families cannot use the format of the tableau, or the tableau claims no order in these
+    families. ``claimed`` contains the families in which the tableau claims an order.
     """
 
     claimed: tuple[str, ...] = ()

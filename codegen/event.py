@@ -21,10 +21,10 @@ values.
 
 @dataclass(frozen=True)
 class Event:
-    """An event: the zeros of a function g(t, y).
+    """A function g(t, y) whose zeros are found in a run.
 
-    ``direction`` is the direction of these zeros: RISING (1), FALLING (-1), or 0 for both directions. If
-    ``terminal`` is true, a zero in this direction ends the run.
+    - ``direction`` selects zeros: RISING (1), FALLING (-1), or 0 for all zeros.
+    - If ``terminal`` is true, the first selected zero ends the run.
     """
 
     function: EventFunction

@@ -45,7 +45,7 @@ FEWEST = 200
     "with_properties",
     is_flag=True,
     help="Also test whether each method is symplectic and symmetric, and whether the first conserved "
-    "quantity of the table drifts.",
+    "quantity drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(

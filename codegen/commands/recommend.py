@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""From this fraction of the time budget on, the output gives the time of the reference solution."""
+"""If the reference solution takes at least this fraction of the budget, the output gives the fraction."""
 
 
 @click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")

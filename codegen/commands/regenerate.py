@@ -32,9 +32,9 @@ from orderconds.commands.place import FOLDER
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
-    A file is stale if an earlier run emitted the file, but regenerate.toml no longer contains its module. The
-    command reports and removes stale files. With --check, the command only reports stale files. A file that
-    no earlier run emitted is reported as unknown and not changed.
+    A file is stale if an earlier run emitted the file for a module that regenerate.toml no longer lists. The
+    command reports and removes stale files. With --check, the command only reports stale files. Files that
+    were not emitted are reported as unknown. The command does not change unknown files.
 
     \b
     Examples:

@@ -76,10 +76,10 @@ def command(
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
     methods for every scene. The measurements take one to two minutes for a Hamiltonian scene, and about half
     a minute for other scenes. Several scenes are measured at the same time. All measured times are CPU times.
-    The processors share caches, so the times are a little shorter with --processes 1. For more than eight
-    scenes, the search for the fastest method is shorter, and the growth of rounding errors is omitted by
-    default. If a report is interrupted, repeat the command to continue the report. If a method fails, the
-    page gives the reason. The pages need no network connection.
+    The processors share caches, so the times are a little shorter with --processes 1. With more than
+    eight scenes, the search for the fastest method takes less time for each scene. The growth of rounding
+    errors is then omitted, unless --full is given. If a report is interrupted, repeat the command to continue
+    the report. If a method fails, the page gives the reason. The pages need no network connection.
 
     The exit status is 1 in three cases: an observed order differs from the order that follows from the order
     conditions, a step with extremely large or small numbers gives a wrong result, or a method fails. The

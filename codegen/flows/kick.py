@@ -45,7 +45,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the part depends on the momentum mu, return None. Otherwise return the part with its kick."""
+    """If the formula depends on the momentum, return None. Otherwise return the part with a :class:`Kick`."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""Arithmetic with exact rational numbers. Each number is the constant term of a power series."""
+"""Arithmetic with exact rational numbers. A number is a power series with a constant term alone."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,10 @@ class Summand:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a Hamiltonian. The part is the sum of ``summands``, whose exact flows are known.
+    """A part of a Hamiltonian.
 
-    If the exact flows are not known, ``summands`` is empty, and ``reason`` says why.
+    If exact flows are known, the part is the sum of ``summands``. Otherwise ``summands`` is empty, and
+    ``reason`` says why.
     """
 
     name: str
@@ -111,7 +112,7 @@ class Formula:
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
-        """Return the values of the formulas ``roots`` at the point (q, mu) with mu = 0.
+        """Return the values of the formulas ``roots`` at the position q and the momentum mu = 0.
 
         The result is None if a value is not a rational number, or if a formula contains the time or a
         parameter that is set at run time.
@@ -127,8 +128,8 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the Jacobian matrix of the formulas ``slopes`` at the point (q, mu) with mu = 0. The
-        derivatives are taken with respect to the symbols ``names``.
+        """Return the derivatives of the formulas ``slopes`` with respect to the symbols ``names``. The matrix
+        is computed at the position q and the momentum mu = 0.
 
         The result is None if an entry is not a rational number, or if an entry contains the time or a
         parameter that is set at run time.
