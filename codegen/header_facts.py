@@ -41,7 +41,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # The header line ``digits`` describes the rounding of the coefficients of a tableau.
+    # If the method has a tableau, the header line ``digits`` describes the rounding of its coefficients.
     tableau = method.coefficients is not None
     carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()

@@ -263,8 +263,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # A single step to ``time`` may have been shortened to end at ``time``. The proposed step size
-            # ``arrival.h`` may then be too small, so the larger of ``h`` and ``arrival.h`` is used.
+            # If one step reaches ``time``, this step may have been shortened to end there. In this case,
+            # ``arrival.h`` may be too small. Therefore the larger of ``h`` and ``arrival.h`` is used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)

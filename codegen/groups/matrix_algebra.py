@@ -36,17 +36,18 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """The non-zero entries of the basis matrices: one tuple for each position, row by row.
+        """One tuple for each position in a matrix. The positions are ordered row by row.
 
-        A pair (i, x) in the tuple means that basis matrix i has the entry x at this position.
+        A pair (i, x) in the tuple means that basis matrix i has the non-zero entry x at this position.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """The non-zero entries of the dual basis: one tuple for each position, row by row.
+        """One tuple for each position in a matrix. The positions are ordered row by row.
 
-        A pair (i, x) in the tuple means that matrix i of the dual basis has the entry x at this position.
+        A pair (i, x) in the tuple means that matrix i of the dual basis has the non-zero entry x at this
+        position.
         """
         return _by_place(self.dual, self.n**2)
 
@@ -55,7 +56,8 @@ class MatrixAlgebra:
         """A number k such that every product of k matrices of the algebra is zero.
 
         If no k is found, the value is 0. The search uses only the positions of the non-zero entries of the
-        basis matrices. Therefore the search may find no k, or a k that is not the smallest one.
+        basis matrices. The search ignores that terms of a product may cancel. Therefore the search may find
+        no k, or a k that is not the smallest one.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}

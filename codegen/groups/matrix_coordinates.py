@@ -22,8 +22,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the capability, otherwise None.
 
-        The capability :class:`CayleyMap` requires that the algebra contains x^3 for each of its elements x.
-        In any other group, some values cay(x) are not in the group.
+        If the algebra lacks x^3 for some element x, the group does not have the capability
+        :class:`CayleyMap`. Some values cay(x) are outside such a group.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
@@ -32,11 +32,11 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        The method tests one element x. The coordinates of x are fixed pseudo-random integers below 2^61. The
-        entries of x^3 are polynomials of degree 3 in the coordinates. With random coordinates, a wrong result
-        would therefore have a probability of at most about 3/2^61.
+        The method tests one element x. Its coordinates are fixed integers below 2^61. The entries of x^3
+        are polynomials of degree 3 in the coordinates. If the integers were random, the result would be wrong
+        with a probability of about 3/2^61 or less.
         """
-        # Powers of 37 modulo the prime 2^61 - 1 are the pseudo-random coordinates.
+        # The coordinates are powers of 37 modulo the prime 2^61 - 1.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

@@ -32,8 +32,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     the other. Every operation acts on each factor separately.
 
     SO(3) x R^3 is not the group of rigid motions. In a rigid motion the rotation acts on the vectors of R^3,
-    but in the direct product the rotation does not act on them. The class inherits several capabilities
-    (:mod:`codegen.groups.capabilities`). A product has one of them only if all its factors have it.
+    but in the direct product the rotation does not act on them. If a factor lacks one of the class's
+    capabilities (:mod:`codegen.groups.capabilities`), the product lacks the same capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -48,17 +48,17 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Split the coordinates of an element into the coordinates of the factors.
+        """Split x into one tuple of coordinates for each factor.
 
-        If x has ``size`` coordinates, x is an element of the group. Otherwise x is an element of the algebra
-        or of the dual of the algebra.
+        If the length of x is the size of the group, x is a group element. Otherwise x is an element of the
+        algebra or of the dual of the algebra.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if the product and all factors have the capability, otherwise None."""
+        """Return this product if its class and all factors have the capability, otherwise None."""
         own = super().offers(capability)
         # Every product has the operations of LieGroup and DirectProduct, whatever its factors are.
         if issubclass(DirectProduct, capability):
@@ -68,8 +68,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
         """Call ``operation`` for each factor, and join the results to one tuple.
 
-        The first argument of a call is the factor. The other arguments are the coordinates that the elements
-        in ``args`` have in this factor.
+        Each element of ``args`` is split into one part for each factor. The arguments of ``operation`` are a
+        factor and the parts for this factor.
         """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
@@ -152,11 +152,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the product x y x for elements x and y of the algebra, factor by factor."""
+        """For each factor, return the product x y x of elements x and y of the algebra."""
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element x of the algebra that satisfies velocity(x, g) = v, factor by factor."""
+        """For each factor, return the element x of the algebra with velocity(x, g) = v."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
@@ -176,8 +176,9 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    With labels of different lengths, two coordinates could have the same symbol. For example, aa could be the
-    27th factor. If the first factor is a product, aa could also be the first factor of that product.
+    With labels of different lengths, two coordinates could have the same symbol. For example, the 27th
+    factor would have the label aa. Suppose that the first factor is itself a product. The symbols of its
+    first factor would also begin with aa.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

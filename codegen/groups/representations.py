@@ -35,14 +35,14 @@ Pair = tuple[Vector[S], Vector[S]]
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector lists its components in the first copy, then those in the second copy, and so on. The methods of
-    this class act on one copy. The attribute ``needs`` is a capability that the group must have.
+    A vector lists its components copy by copy. The methods of this class act on one copy. The group must have
+    the capability ``needs``.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. A semidirect product with another representation has no covering
-    group.
+    """True if the representation is Ad. If false, a semidirect product with this representation does not have
+    the capability :class:`Covered`.
     """
 
     def __init__(self, copies: int = 1) -> None:
@@ -68,7 +68,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-T p for the representation rho. This map is the inverse of :meth:`dual`."""
+        """Return rho(g)^-T p for the representation rho. Here -T means the inverse of the transpose."""
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -95,7 +95,7 @@ class Representation(ABC):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
-        If :meth:`closed` returns False, a subclass must implement this method.
+        A subclass whose :meth:`closed` returns False must implement this method.
         """
         raise self._missing("gradient")
 
@@ -125,7 +125,7 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="if closed() returns True: series() and dual_series(); otherwise: gradient()",
+            expected="gradient(), or series() and dual_series() if closed() returns True",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
@@ -139,9 +139,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
 
-    Here x.v is the bracket [x, v]. A pair (x, u) of elements of the algebra is represented by the dual number
-    x + u e with e^2 = 0. With these dual numbers, the group's formulas for functions of ad hold for the
-    semidirect product, too.
+    Here x.v is the bracket [x, v]. The dual number x + u e with e^2 = 0 represents the element (x, u) of the
+    semidirect product's algebra. The bracket of dual numbers is the bracket of this algebra. Therefore the
+    group's formulas for functions of ad are evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -185,7 +185,7 @@ class AlgebraVectors(Representation):
         return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because the group must have the capability :class:`ClosedFormSeries`."""
+        """Return True. The group's capability :class:`ClosedFormSeries` provides the closed forms."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
@@ -202,10 +202,9 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p.
 
-        The method represents x and p by dual numbers, and evaluates the group's formula for ``word``. A pair
-        (y, v) of elements of the algebra becomes y + v e with e^2 = 0. The pair p = (m, q) becomes q + m e.
-        The value of p at (y, v) is <m, y> + <q, v>. This value is the coefficient of e in the pairing
-        <q + m e, y + v e>.
+        The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The number
+        y + v e represents x = (y, v), and q + m e represents p = (m, q). The coefficient of e in
+        <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -214,7 +213,7 @@ class AlgebraVectors(Representation):
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group if its elements are the rotation matrices of R^3. Otherwise return None.
 
-        For a rotation matrix g of R^3, Ad_g v is the product of the matrix g and the vector v.
+        For these matrices, Ad_g is multiplication by g: Ad_g v = g v.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
@@ -279,9 +278,9 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
-        Let A be the matrix of x, and M = [[A, u], [0, 0]]. The derivative of exp at M is a linear map. The
-        transpose of this map is the derivative of exp at M^T. One evaluation of the transpose gives the
-        derivatives with respect to x and u.
+        Let A be the matrix of x, and M = [[A, u], [0, 0]]. The last column of exp(M) contains phi(x) u.
+        The method evaluates the derivative of exp at M^T, which is the transpose of the derivative at M. The
+        direction is the matrix with p in the last column and zeros elsewhere.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -303,7 +302,7 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group. Each element g acts on a column by multiplication with the matrix of g."""
+        """Return the group, because each element acts on columns by its matrix."""
         return self._matrices(group)
 
 
@@ -332,8 +331,8 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True. Let x = (w, u) with a number w and a vector u. Then ad_x^3 = -w^2 ad_x, and each power
-        series in ad_x is equal to a quadratic polynomial in ad_x.
+        """Return True. For x = (w, u) with a number w and a vector u, ad_x^3 = -w^2 ad_x. Therefore each
+        power series in ad_x is equal to a quadratic polynomial in ad_x.
         """
         return True
 
@@ -355,7 +354,7 @@ class PlaneVectors(MatrixColumns):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Apply to p the transpose of the linear map v -> series(d, group, word, x, v)."""
+        """Return L^T p, where L is the linear map v -> series(d, group, word, x, v)."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
         turned = c * w

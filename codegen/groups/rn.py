@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return zero, because the matrices X and Y of x and y satisfy X Y = 0."""
+        """Return zero. The matrices X of x and Y of y satisfy X Y = 0, and therefore X Y X = 0."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -140,9 +140,9 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) scaled to length 1 up to O(e^3), where e = 1 - c^2 - s^2.
+        """Return g = (c, s, a) with (c, s) multiplied by 1 + e/2 + 3 e^2/8.
 
-        The scaling factor is 1 + e/2 + 3 e^2/8.
+        Here e = 1 - c^2 - s^2. The length of the scaled vector (c, s) is 1 + O(e^3).
         """
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 

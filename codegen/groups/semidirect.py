@@ -50,9 +50,9 @@ class Semidirect(
 ):
     """The semidirect product of a group G, the linear factor, and a vector space V on which G acts.
 
-    The argument ``representation`` is the representation rho of G on V. The space V consists of one or more
-    copies of a smaller space. An element is (g, a): the coordinates of g in G, followed by the components of
-    a in V. For x in the algebra of G and z in V, x.z is the action of x on z.
+    The argument ``representation`` is the representation rho of G on V. The space V is a direct sum of one or
+    more copies of the same space. An element is (g, a): the coordinates of g in G, followed by the components
+    of a in V. For x in the algebra of G and z in V, x.z is the action of x on z.
 
     - The product is (g, a)(k, b) = (g k, a + rho(g) b).
     - The element (g, a) maps the point z of V to rho(g) z + a.
@@ -184,7 +184,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # Let t = v + b.u/2. The second component of the result is t - a.t/2.
+        # The second component of the result is t - (a.t)/2 with t = v + (b.u)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -283,10 +283,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        If the representation has closed forms, the method calls :meth:`series`. Otherwise, let J be the
-        momentum map, and let t = phi(y) u with phi(y) from :meth:`exp`. The result is
-        (dexp*_y (m - J(t, p)) + D_y <p, t>, D_u <p, t>), where D_y and D_u are derivatives with respect to y
-        and u.
+        If the representation has closed forms, the method calls :meth:`series`. Otherwise the result is
+        (dexp*_y (m - J(t, p)) + D_y f, D_u f). Here J is the momentum map, t = phi(y) u with phi(y) from
+        :meth:`exp`, and f(y, u) = <p, t>. D_y f and D_u f are the partial derivatives of f.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -308,7 +307,7 @@ class Semidirect(
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
             # If ``dual`` is true, the first component of the result is a sum over all copies of the space.
-            # This sum contains the contribution of w once. Therefore ``rule`` receives w for the first copy,
+            # The contribution of w must be added once. Therefore ``rule`` receives w for the first copy,
             # and zero for each other copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
@@ -326,8 +325,8 @@ class Semidirect(
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The factor f is a number, and W is a product of functions. If ``dual`` is true, ad*_x replaces ad_x.
-        This implementation does not need the argument ``total``.
+        Here f is a number, and W is a product of functions of ad_x. If ``dual`` is true, ad*_x replaces ad_x.
+        The argument ``total`` is not used.
         """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
@@ -360,7 +359,7 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of the linear factor. The vector needs no rules."""
+        """Return the replacement rules of the linear factor. The components of the vector are independent."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -443,28 +442,28 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image (s, a) of q = (r, a). The covering map of the linear factor maps r to s."""
+        """Return (s, a) for q = (r, a). The covering map of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Project q = (r, a) onto the cover, and return the image. The vector a is not changed."""
+        """Return (s, a) for q = (r, a). ``projected_covering`` of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element (z, u) of the cover's algebra for x = (y, u). The linear factor maps y to z."""
+        """Return (z, u) for x = (y, u). ``lifted_velocity`` of the linear factor maps y to z."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return one pivot for each formula of :meth:`lift`. If a pivot is positive, its formula is valid."""
+        """Return the pivots of the linear factor, one for each formula of :meth:`lift`."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element (r, a) of the cover, where the covering map of the linear factor maps r to q.
+        """Return an element (r, a) of the cover for g = (q, a).
 
-        Here g = (q, a), and ``formula`` is the index of the formula for r.
+        The covering map of the linear factor maps r to q. ``formula`` is the index of the formula for r.
         """
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a

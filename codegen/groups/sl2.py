@@ -69,7 +69,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, followed by the momentum from :meth:`transport`."""
+        """Return one tuple: the entries of exp(x) q, then the momentum transport(x, n, mu)."""
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

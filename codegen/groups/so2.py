@@ -57,7 +57,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -w^2 y for x = (w,). The vector -w^2 y has the matrix hat(x) hat(y) hat(x)."""
+        """Return the element with the matrix hat(x) hat(y) hat(x). For x = (w,), this element is -w^2 y."""
         return (-(x[0] * x[0] * y[0]),)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -160,7 +160,8 @@ class SO3(
         """Return W v, where W is the product ``word`` of functions of ad_x. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        On so(3), ad_x^3 = -(x.x) ad_x. Therefore W = 1 + b ad_x + c ad_x^2 with numbers b and c.
+        Each function is a power series with the constant term 1. On so(3), ad_x^3 = -(x.x) ad_x.
+        Therefore W = 1 + b ad_x + c ad_x^2 with numbers b and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -183,8 +184,8 @@ class SO3(
         ad*_x = -ad_x replaces ad_x. The sum is computed as A + x cross (B + x cross C), where A, B and C are
         linear combinations of the vectors v.
 
-        If ``total`` is given, ``total(indices)`` must return the sum of f v over the terms with these
-        indices. A caller can thus provide a shorter formula for this sum.
+        The optional function ``total`` computes the sum of the vectors f v over some terms. Its argument
+        contains the indices of these terms.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -217,14 +218,14 @@ class SO3(
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). Each row r of g becomes exp(-x) r."""
+        """Return g exp(x). The rows of the result are exp(-x) r for the rows r of g."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g hat(x), the derivative of g exp(eps x) at eps = 0.
 
-        Each row r of g becomes r cross x.
+        The rows of the result are r cross x for the rows r of g.
         """
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
@@ -252,8 +253,8 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # For short steps, y is much larger than the terms with c1 and c2. The two small terms are added
-        # first, so only one addition has a rounding error proportional to y.
+        # For short steps, the terms with c1 and c2 are small. The sum of these two terms is added to y.
+        # Therefore only one addition has a rounding error proportional to y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -268,8 +269,8 @@ class SO3(
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return exp(x) mu + dexp_x n.
 
-        If the attribute ``dependent`` is the index of a column, the matrix exp(x) is not computed. The result
-        is then a linear combination of mu, n and their single and double cross products with x.
+        If a column is dependent (see :meth:`variants`), the method does not compute the matrix exp(x). The
+        result is computed from mu, n and their cross products with x.
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
@@ -296,18 +297,18 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the indices of the entries of each row, and then of each column.
+        """Return six tuples: the indices of the entries of each row and of each column, rows first.
 
-        Each row is the cross product of the next two rows in cyclic order. The same is true for columns.
+        Each row is the cross product of the other two rows in cyclic order. The same is true for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g after one row or one column is computed from the other two.
+        """Compute a missing row or column of g, and return the complete matrix.
 
-        ``missing`` contains the indices of the entries of this row or column. A row is the cross product of
-        the next two rows in cyclic order. The same is true for columns.
+        ``missing`` contains the indices of the missing entries. A row is the cross product of the next two
+        rows in cyclic order. The same is true for columns.
         """
         sets = self.determined()
         place = sets.index(missing)

@@ -14,8 +14,8 @@ class SU2(S3):
     """Unitary 2 x 2 matrices of determinant 1, stored as unit quaternions, real part first.
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
-    matrices. The basis of the algebra is -i sigma_k/2. An element x of this algebra is the quaternion
-    x/2 in the algebra of S^3. In the formulas below z = x.x, and c_k are the Stumpff functions.
+    matrices. The basis of the algebra is -i sigma_k/2. The element with the coordinates x is the
+    quaternion (0, x/2). In the formulas below z = x.x, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x cross y.
     - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2). The quaternion exp(x) rotates vectors about x by
@@ -38,11 +38,11 @@ class SU2(S3):
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y. For x/2 and y/2, :meth:`S3.dcayinv` returns half of this vector."""
+        """Return dcay^{-1}_x y. This vector is twice the result of :meth:`S3.dcayinv` for x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x. For x/2 and y/2, :meth:`S3.sandwich` returns half of this vector."""
+        """Return x y x. This vector is twice the result of :meth:`S3.sandwich` for x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

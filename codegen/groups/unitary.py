@@ -24,10 +24,10 @@ class Unitary(RotationGroup):
         self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
 
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
-        """Compute the basis of the algebra, and initialise the group with it.
+        """Compute the basis of the algebra, and initialise the group with this basis.
 
-        ``diagonal`` contains one table for each diagonal matrix of the basis. The table maps (row, column) to
-        the imaginary part of the entry.
+        ``diagonal`` contains one table for each diagonal matrix of the basis. The table maps the position
+        (row, column) of an entry to the imaginary part of this entry.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []

@@ -22,7 +22,7 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation for each constant entry. Each equation is a pair of a text and a residual.
+        """Return one pair for each constant entry: the text of an equation, and the residual at g.
 
         The entries on the diagonal are 1, and all other constant entries are 0.
         """
