@@ -15,8 +15,8 @@ def inverse(
     """Return the inverse of a matrix, row by row, or None for a singular matrix.
 
     ``a`` contains the entries of the n x n matrix, row by row. ``one`` is the number 1 in the type of the
-    entries. The pivot of a column is the entry x with the largest ``size(x)``. For doubles, emitted code
-    executes the same operations in the same order, so its results are identical.
+    entries. The pivot of a column is the entry x with the largest ``size(x)``. Emitted code executes
+    the same operations in the same order.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
@@ -37,8 +37,8 @@ def inverse(
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
-    # ``rows`` is now the inverse of the matrix with exchanged rows. The exchange of two rows of a matrix
-    # exchanges the same two columns of the inverse. The loop undoes these exchanges, the last one first.
+    # The row exchanges have permuted the columns of the inverse. The loop exchanges these columns back, in
+    # reverse order.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

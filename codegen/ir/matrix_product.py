@@ -48,7 +48,7 @@ class BilinearFunction(VectorFunction):
         # The first pass computes f(a', b), and the second pass computes f(a, b').
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # If a' = 0, then f(a', b) = 0. If b' = 0, then f(a, b') = 0.
+            # If the derivative a' or b' is zero, its pass adds nothing.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -60,15 +60,15 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # Let E be the derivative of a or b with respect to this entry: a matrix with one entry 1 and zeros
-        # elsewhere. Since f is linear in a and in b, the derivative of f(a, b) is f(E, b) or f(a, E).
+        # Let E be the matrix with a 1 at this entry and zeros elsewhere. For an entry of a, the derivative is
+        # f(E, b). For an entry of b, the derivative is f(a, E).
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # ``half`` selects all entries of a, or all entries of b. E replaces them.
+        # ``half`` selects the entries of the matrix that E replaces: a or b.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Scalar formulas are returned, because they are short: most entries of E are zero. A call of f in
-        # emitted code would compute many zeros.
+        # Most entries of E are zero, so the formulas for the entries are short. They are used in place of a
+        # call of the function f.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -36,7 +36,7 @@ STATE = -1
 
 @dataclass(frozen=True)
 class Factor:
-    """The function of z that applies the function named ``function`` to ``scale`` * z. Here z is h times an
+    """A function of z: the function named ``function``, applied to ``scale`` * z. Here z is h times an
     eigenvalue of L.
     """
 
@@ -51,7 +51,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # If two different scales round to the same double, their texts determine the order.
+        # Two different scales may round to the same double. The text of the scale then determines the order.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -79,10 +79,11 @@ class Multiplier:
     def of(cls, function: str, scale: Number) -> Multiplier:
         """Return the function named ``function``, applied to ``scale`` * z."""
         if scale.is_zero:
-            # At w = 0 the function w (:data:`POWER`) is 0. The other functions are 1 or tend to 1.
+            # At 0, the function :data:`POWER` has the value 0. The other functions have the value or limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # ``scale`` becomes the coefficient of the factor z. Two multiples of z can thus be added.
+            # A multiple of z is stored as a coefficient and the factor z. All multiples of z thus have the
+            # same monomial.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -217,8 +218,8 @@ class Nonlinearity:
     - ``outer`` contains, for each j, the number of times that f_j is differentiated with respect to x.
     - ``formulas`` computes the values of all f_j at one point x. Its inputs are the derivatives in ``inner``,
       x, t and the parameters.
-    - ``kept`` is the fraction of the Fourier modes of N that are used. The modes with the highest wave
-      numbers are set to zero to avoid aliasing.
+    - ``kept`` is a fraction. The step uses this fraction of the Fourier modes of N. To avoid aliasing, it
+      sets the modes with the highest wave numbers to zero.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -255,7 +256,8 @@ class ModeStep:
     @property
     def complex(self) -> bool:
         """True if L may have eigenvalues that are not real."""
-        # In this case ``symbol`` has a second output: the imaginary part of the eigenvalue.
+        # For real eigenvalues, ``symbol`` has one output. Otherwise its outputs are the real part and the
+        # imaginary part.
         return len(self.symbol.outputs) > 1
 
     @property
@@ -267,7 +269,7 @@ class ModeStep:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The different factors of all coefficients of the step, sorted by :attr:`Factor.order`."""
+        """The factors in all coefficients, without repetitions, sorted by :attr:`Factor.order`."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
         # Sorting makes the result independent of the order of the coefficients in ``tables``.
         return tuple(sorted(factors, key=lambda f: f.order))
@@ -283,13 +285,14 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """A number p such that every coefficient of the step is at most C (1 + |z|)^p in absolute value for
-        z < 0, with a constant C.
+        """An exponent p for the growth of the coefficients of the step.
 
-        If :attr:`backwards` is true, p is not meaningful, because some coefficients grow exponentially.
+        For z < 0, the absolute value of each coefficient is at most C (1 + |z|)^p. The constant C does not
+        depend on z. If :attr:`backwards` is true, p has no meaning, because some coefficients grow
+        exponentially.
         """
-        # As z tends to -infinity, phi_1(z) behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|. The
-        # function exp(z) is bounded. ``degrees`` contains these exponents of |z|.
+        # ``degrees`` describes each function by a power of |z| for z -> -infinity. For example, phi_1(z)
+        # behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|. The function exp(z) is bounded.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
         # The degree of a product is the sum of the degrees of its factors. The result is the largest degree
         # of all terms.
@@ -312,13 +315,13 @@ class ModeStep:
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
-            # The time t is not printed. Other times are printed.
+            # For an evaluation at the time t, no time is printed.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            # No pole is real. If all eigenvalues are real, z is real, and the poles are not mentioned.
+            # The poles are not real. If all eigenvalues are real, the text does not mention the poles.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"coefficients for z < 0: {self.bound()}")

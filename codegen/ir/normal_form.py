@@ -4,8 +4,8 @@ A relation is an equation between a product of two symbols and a sum. The expres
 polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
 in a relation is replaced by its sum. If g is orthogonal, for example, |g y|^2 becomes |y|^2.
 
-The result is called the normal form of the expression. Equal expressions may have different normal forms. The
-normal form may be longer than the given expression.
+The result is called the normal form of the expression. It is not unique: two equal expressions may have
+different normal forms. The normal form may be longer than the expression.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ pairs are sorted by node number.
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""The pair ((a, b), sum) means that the product of the symbols a and b equals the sum. Each term of the sum
-is a pair (number, symbols). The term is the product of the number and the symbols.
+"""A pair ((a, b), terms). The product of the symbols a and b equals the sum of the terms. Each term is a
+pair (number, symbols) and denotes the product of the number and the symbols.
 """
 
 ONE = Number.rational(1)
@@ -32,8 +32,8 @@ MOST_TERMS = 400
 """The largest number of terms of a polynomial. An expression whose expansion has more terms is not
 simplified.
 
-Without a limit, the simplification of a long expression could be very slow. The limits 200 and 800 give the
-same emitted files (``orderconds regenerate --check``).
+Without a limit, the simplification of a long expression could be very slow. The exact value is not critical:
+the emitted files are the same for the limits 200 and 800.
 """
 
 
@@ -42,11 +42,11 @@ class TooLong(ArithmeticError):
 
 
 class NormalForms:
-    """Simplifies the expressions of one :class:`Space` by relations.
+    """Simplifies the expressions of ``space``.
 
-    Each relation replaces a product of two symbols by an equal sum. The replacement is repeated until no
-    relation applies. The caller chooses relations for which the replacement ends. The expressions in
-    ``whole`` are not expanded.
+    Each relation in ``relations`` replaces a product of two symbols by an equal sum. The replacement is
+    repeated until no relation applies. The caller must choose relations for which this process ends. Each
+    expression in ``whole`` is treated as one variable and is not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -70,7 +70,7 @@ class NormalForms:
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return the simplified form of ``root``. If the relations hold, it has the same value as ``root``.
+        """Return the simplified form of ``root``. If the relations hold, both expressions have equal values.
 
         If the expansion has too many terms, ``root`` itself is returned.
         """
@@ -80,7 +80,7 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and apply the relations as long as possible.
+        """Expand ``root`` as a polynomial, and apply the relations until no relation applies.
 
         :class:`TooLong` is raised if the polynomial has too many terms.
         """
@@ -102,8 +102,8 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # A relation replaces a product of two symbols. A sum of two polynomials contains no new
-                    # product, so only a product of polynomials is reduced.
+                    # A relation replaces a product of two symbols. A multiplication can create such a
+                    # product, but an addition cannot.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -133,7 +133,7 @@ class NormalForms:
         # This is Horner's rule in several variables. If several variables occur in the largest number of
         # terms, the variable with the smallest node number is factored out.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
-        # A variable that occurs in only one term is not factored out. This would save no multiplication.
+        # If no variable occurs in two terms, factoring out saves no multiplication.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -169,8 +169,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # The work is proportional to the number of pairs of terms. The product often has fewer terms than
-        # there are pairs, so the limit for pairs is larger than ``MOST_TERMS``.
+        # The work is proportional to the number of pairs of terms. Many pairs may have equal products, so the
+        # limit for pairs is larger than ``MOST_TERMS``.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}

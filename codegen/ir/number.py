@@ -1,10 +1,10 @@
-"""Exact constants, such as the coefficients of a Butcher tableau. Each number is an element of a ring.
+"""Constants, such as the coefficients of a Butcher tableau. Each constant is an element of a ring.
 
-A rational or algebraic number is exact. Another number is given by a ball, that is, by an interval that
-contains the number. When code is printed, each number is rounded to a floating-point number.
+Rational and algebraic numbers are stored exactly. Any other number is stored as a ball, that is, as an
+interval that contains the number. When code is printed, each number is rounded to a floating-point number.
 
-The comparison x == y compares the keys of x and y (:attr:`Number.key`). The key of a ball consists of its end
-points. If x == y, x - y is exactly 0 and x/y is exactly 1. Multiplication by 1 does not make a ball wider.
+Two balls with equal end points are treated as the same number (:attr:`Number.key`). The difference of two
+equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1 does not change a ball.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def is_normal(value: Fraction) -> bool:
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
-    # A denormal double has fewer than 53 bits, so the relative error may be larger.
+    # A denormal double has fewer than 53 bits, so rounding to it may cause a larger relative error.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -71,8 +71,8 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the number in a text that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised if the text is not a rational number. It is also raised if :func:`is_normal` is
-        False for the number.
+        ValueError is raised if the text is not a rational number. It is also raised if the number is too
+        small or too large for a normal double (:func:`is_normal`).
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True

@@ -22,8 +22,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each variable is a tuple with one kind. The sum of two tuples describes two arguments: ``G + A`` means a
-# group element and an element of the Lie algebra.
+# Each of these tuples describes one argument. The sum of two tuples describes two arguments: ``G + A`` means
+# a group element and an element of the Lie algebra.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -33,12 +33,12 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 class Problem(Protocol):
     """The differential equation to solve: the Lie group, its action, and the vector field or Hamiltonian.
 
-    The user defines a problem in a scene. A domain is a type of scalars, such as doubles, power series or
-    expressions. The methods work for every domain.
+    The user defines a problem in a scene. The argument ``domain`` of a method determines the type of the
+    scalars: for example doubles, power series or expressions.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function ``name`` of the group, of its action or of the scene.
+        """Return the results of the function called ``name``. The group, its action or the scene defines it.
 
         For the truncated dexp^{-1} and its derivative, ``order`` is the order of the truncation. For a Taylor
         polynomial, ``order`` is the degree. For all other functions, ``order`` is None.
@@ -82,8 +82,8 @@ class Operation(ABC):
     """The number of exponentials or exact flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports of the cost. If the operation costs nothing, the name is ''. The
-    report replaces ``{s}`` by the plural ending "s" or by nothing.
+    """The name of the operation in reports of the cost. If the operation costs nothing, the name is ''. In
+    the plural, the report replaces ``{s}`` by "s". In the singular, it omits ``{s}``.
     """
 
     @property
@@ -135,7 +135,7 @@ class Zero(Operation):
         return ((domain.rational(0),) * problem.dimension(),)
 
 
-# Compiler passes combine nested objects of this class.
+# If an argument is itself a linear combination, compiler passes may combine both into one.
 @dataclass(frozen=True)
 class Linear(Operation):
     """A linear combination of vectors, with one coefficient for each argument."""
@@ -267,7 +267,7 @@ class InverseDifferential(OfGroup):
 
 @dataclass(frozen=True)
 class Multiply(OfGroup):
-    """The product g k of the group elements g and k. For each point y, (g k).y = g.(k.y)."""
+    """The product g k of the group elements g and k. The action satisfies (g k).y = g.(k.y)."""
 
     name = "mul"
     takes, gives = G + G, G
@@ -334,7 +334,7 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that computes the inverse of this linear map, for the same group element g."""
-        # The map Ad_{g^-1} is the inverse of Ad_g, and Ad*_{g^-1} is the inverse of Ad*_g.
+        # The inverse of Ad_g is Ad_{g^-1}, and the inverse of Ad*_g is Ad*_{g^-1}.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -385,8 +385,8 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The functions of ad_x that the operation applies: only the truncated dexp^{-1}."""
-        # A word is a product of functions of ad_x. Several successive operations may have the same x. A
-        # compiler pass replaces them by one operation whose word is the product of all functions.
+        # A word is a product of functions of ad_x. If successive operations have the same x, a compiler pass
+        # replaces these operations by one. Its word is the product of all functions.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -423,7 +423,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the vector P* mu."""
+        """Return the transposed derivative of dexpinv_x y, applied to mu."""
         return problem.apply(domain, "P", self.order, args)
 
 
@@ -474,7 +474,7 @@ class AdSeries(Operation):
         """Return True if ``word`` is not empty and the operation maps arguments of these kinds to results of
         these kinds.
         """
-        # An empty word is the identity map. The operation is then superfluous, so it is not accepted.
+        # An empty word is not accepted. It would be the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:

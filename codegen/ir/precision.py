@@ -75,9 +75,9 @@ class Precision:
         # Python's ``repr`` of a float is the shortest text that is converted back to the same double.
         if self.bits == 53:
             return repr(x)
-        # For single precision, Python has no such function. The loop tries 1 digit, 2 digits, and so on.
+        # For single precision, the loop finds the shortest text. It tries 1 digit, 2 digits, and so on.
         for digits in range(1, self.digits + 1):
-            # ``struct.pack`` rounds both doubles to single precision. The rounded numbers are compared.
+            # ``struct.pack`` rounds its argument to single precision. The rounded numbers are compared.
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
@@ -104,9 +104,9 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     # The exact value is rounded directly to ``bits`` bits. Rounding to a double first could give a wrong
     # result: the double may lie exactly between two numbers of the format.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths may give an exponent that is too small by one.
+    # The exponent from the bit lengths is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # The last bit of a number is at least the smallest positive number of the format.
+    # Every number of the format is a multiple of the smallest positive number.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)

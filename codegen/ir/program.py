@@ -4,8 +4,8 @@ Examples of operations are exp, Ad and the group product. The operations do not 
 the group. Each variable is assigned only once.
 
 Equations that depend on one another form a :class:`Solve` block u = g(u). The statements of the block compute
-g(u) from the unknowns u. If a method has stages, its translation contains one block with the equations of all
-stages. Compiler passes then find stages that can be solved one after the other.
+g(u) from the unknowns u. A method with stages is translated to a program that has one block for all stages.
+Compiler passes then find stages that can be solved one after the other.
 
 The statements contain no branches. Their only loops are the iterations that solve blocks. All group elements
 are elements of the same group.
@@ -50,7 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Compiler passes use this property to replace L(c y) by c L(y), where L is a linear map.
+    # If ``is_multiple`` is true, compiler passes may replace L(c y) by c L(y) for a linear map L.
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a linear combination with one term: a coefficient times a value."""
@@ -113,7 +113,7 @@ approximately exp(sigma(theta)).y.
 
 
 SPACE, BODY = "space", "body"
-"""The values of :attr:`Program.frame`, the frame of the momentum in the statements."""
+"""The values of :attr:`Program.frame`: the statements use the momentum in the space frame or body frame."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,8 @@ class Program:
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. The
     statements compute the new values q' and m'. The new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
-    The effect of rounding errors in q nearly cancels in this difference.
+    In exact arithmetic, this value is Ad*_{q'^-1} m'. The difference reduces the effect of rounding errors
+    in q.
     """
 
     name: str
@@ -189,7 +190,10 @@ class Program:
 
 @dataclass
 class Builder:
-    """A list of assignments. Methods such as :meth:`exp` append an assignment and return its target."""
+    """Builds a list of assignments.
+
+    A method such as :meth:`exp` appends an assignment and returns the new variable on its left-hand side.
+    """
 
     taken: set[str] = field(default_factory=set)
     """The variable names that are in use."""
@@ -256,10 +260,13 @@ class Builder:
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
-        """Append target = sum of coefficient * variable. If all coefficients are zero, append target = 0."""
+        """Append target = sum of coefficient * variable over ``terms``. An empty sum is the zero vector.
+
+        ``kind`` is the kind of the target.
+        """
         var = self.fresh(target, kind)
-        # Terms with the coefficient zero are omitted. Compiler passes assume that a sum depends on each
-        # variable in the sum.
+        # Terms with the coefficient zero are omitted, because compiler passes assume that a sum depends on
+        # each of its variables.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
@@ -282,8 +289,8 @@ class Builder:
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
         """Append the exact flow of a term of the Hamiltonian, and return q and mu after the flow.
 
-        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, ``time`` is
-        the fixed time at which the flow evaluates the term.
+        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, the
+        term is evaluated at the fixed time ``time``.
         """
         # The variable names contain the number of this assignment, so two flows have different names.
         number = 1 + len(self.body)

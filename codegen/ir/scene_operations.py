@@ -79,8 +79,8 @@ class BodyVelocity(OfScene):
 class BodyForce(OfScene):
     """The force N(q, P) in the body frame, where P = Ad*_q mu.
 
-    In counts of operations, the force and the velocity at a point are one evaluation of the derivatives of
-    the Hamiltonian.
+    The force and the velocity are computed from the derivatives of the Hamiltonian. In the cost of a method,
+    the force counts as one evaluation of the derivatives. The velocity is not counted.
     """
 
     name = "force"
@@ -96,7 +96,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # The momentum is a constant matrix times the velocity, so no formula of the scene is evaluated.
+    # The momentum is a constant matrix times the velocity. No formula of the scene is needed.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -124,17 +124,17 @@ class Differential(OfGroup):
     noun = "differential{s} of the energy"
 
 
-# In coordinates, the result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
 @dataclass(frozen=True)
 class Secant(OfGroup):
     """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
 
     The covector g approximates the gradient. The vector x is the displacement between two points with the
-    energies H0 and H1. The pairing of the result with x is H1 - H0. Among all covectors with this property,
-    the result has the smallest Euclidean distance from g. For x = 0 the result is g.
+    energies H0 and H1. Among all covectors c with <c, x> = H1 - H0, the result has the smallest Euclidean
+    distance from g. For x = 0 the result is g.
     """
 
-    # For x = 0, the number r is 0/0. An operation for the whole formula can return g in this case.
+    # The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>. For x = 0 this fraction is 0/0.
+    # Therefore this class computes the whole formula and returns g for x = 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -199,8 +199,8 @@ class CayleyElement(OfGroup):
 class Sandwich(OfGroup):
     """The product x y x of two elements x and y of the Lie algebra.
 
-    The elements are matrices or quaternions. If the group is defined by a quadratic equation such as
-    g^T g = 1, the product is in the Lie algebra.
+    The elements are matrices or quaternions. For a group with a quadratic equation such as g^T g = 1, the
+    product is in the Lie algebra.
     """
 
     linear_in_last = True
@@ -226,7 +226,7 @@ class FlowOf(Operation):
     """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
     ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
-    a time t. The flow evaluates the term at the fixed time t.
+    a time t. The term is evaluated at the fixed time t.
     """
 
     part: str
@@ -260,8 +260,7 @@ class FlowOf(Operation):
 class SiteFlowOf(Operation):
     """The state of a lattice after the exact flow of one part of its vector field, for a fixed duration.
 
-    ``part`` is the name of this part. The flow changes all sites together, so a single site has no flow of
-    its own.
+    ``part`` is the name of this part. The flow changes all sites together.
     """
 
     part: str
@@ -287,7 +286,7 @@ class SiteFlowOf(Operation):
         raise ArithmeticError("the flow of a lattice changes all sites and is not defined for a single site")
 
 
-# In :class:`FlowOf` the duration is a fixed multiple of h. In this class the step computes the duration.
+# In :class:`FlowOf` the duration is a fixed multiple of h. In ``FlowFor`` the step computes the duration.
 @dataclass(frozen=True)
 class FlowFor(Operation):
     """The state after the exact flow of one term of the Hamiltonian. The duration is an argument.
