@@ -16,9 +16,11 @@ from pathlib import Path
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
     """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
-    Several ``shared`` locks can exist at the same time. By default the lock is exclusive: no second lock can
-    exist. By default the function waits for the lock. With ``wait=False`` it does not wait: it yields False
-    if another lock prevents the new one. If the file system has no locks, it also yields False.
+    By default, the lock is exclusive: the folder can have no other lock. With ``shared=True``, the folder can
+    have several shared locks at the same time.
+
+    If another lock on the folder prevents this lock, the function waits until the other lock ends. With
+    ``wait=False``, the function yields False instead. If the file system has no locks, it yields False.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

@@ -58,7 +58,8 @@ def isotropic_part(B: Matrix) -> Fraction:
     different, the result is the middle entry in ascending order.
 
     If B is not diagonal, the function compares several candidates: the diagonal entries, and numbers a for
-    which B - a I may have rank one. The result is the candidate with the fewest pairs.
+    which B - a I may have rank one. The result is the candidate for which :func:`squares` returns the fewest
+    pairs.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -72,7 +73,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # If B - a I has rank one, all its 2 x 2 minors are zero. For this candidate a, the
-                    # minor of the rows i, k and the columns i, j is zero.
+                    # If B - a I has rank one, all its 2 x 2 minors are zero. This candidate a is the number
+                    # for which the minor of the rows i, k and the columns i, j is zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,4 +1,4 @@
-"""Recognition: functions that find the exact flows of the parts of a Hamiltonian from their formulas.
+"""Recognition of exact flows. The formula of each part of a Hamiltonian determines the flow of the part.
 
 For each kind of flow, a function examines the formula of a part. There are three results:
 
@@ -26,7 +26,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If the formula depends on the time, return a part without a flow. Otherwise return None."""
+    """If the formula depends on the time, return a part without an exact flow. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -38,16 +38,16 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""One function for each kind of flow, in the order of the calls.
+"""The functions that examine the formula of a part.
 
-The first result that is not None is used.
+They are called in this order until a result is not None.
 """
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:
-    """Return the parts of the Hamiltonian of a problem with their exact flows.
+    """Find the exact flows for the parts of the Hamiltonian of a problem, and return the parts.
 
-    If no exact flow is known for a part, its attribute ``reason`` says why.
+    If no exact flow is known for a part, the attribute ``reason`` of the part says why.
     """
     return tuple(_part(Formula(problem, name, root)) for name, root in problem.parts.items())
 

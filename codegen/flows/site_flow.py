@@ -1,6 +1,6 @@
-"""Exact flows on a lattice. The field or the Hamiltonian of the lattice is a sum of parts.
+"""Exact flows of the parts of a lattice problem. A lattice problem is given by a field or a Hamiltonian.
 
-Each part has its own flow. A flow changes the states of all sites together.
+The field or the Hamiltonian is a sum of parts. A flow changes the states of all sites together.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ odd.
 
 
 POTENTIAL = "potential"
-"""The name of the potential energy of a lattice. It includes the interaction of neighbouring sites."""
+"""The name of the potential energy of a lattice, including the interaction of neighbouring sites."""
 
 
 @dataclass(frozen=True)
@@ -82,9 +82,9 @@ def site_flows(scene: Problem) -> list[Part]:
 
 
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
-    """Return the parts of the Hamiltonian of a lattice with their exact flows.
+    """Return the parts of a lattice Hamiltonian and their exact flows.
 
-    The last part of the list is the potential energy. The flow of this part is a kick.
+    The last part in the list is the potential energy. The flow of this part is a kick.
     """
     assert scene.sites is not None
     listed, total = [], scene.sites.force
@@ -94,7 +94,8 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # If a force or a prescribed state outside the lattice depends on the time, the kick also depends on it.
+    # The kick depends on the forces and on the prescribed states outside the lattice. If one of them depends
+    # on the time, the kick depends on the time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -18,7 +18,8 @@ from codegen.scene.hamiltonian_scene import TAU
 class Stated(Flow):
     """A flow that the user gives in the scene. ``formulas`` are the formulas for (q, mu) after the time tau.
 
-    If the time derivatives of the formulas are not equal to the field of the part, an error is raised.
+    When the scene is defined, the time derivatives of the formulas are compared with the field of the part.
+    If they differ, :class:`codegen.errors.SceneError` is raised.
     """
 
     formulas: tuple[Expr, ...]
@@ -42,6 +43,9 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the scene gives a flow for this part, return the part with this flow. Otherwise return None."""
+    """Return the part that ``formula`` describes, with the flow from the scene.
+
+    If the scene gives no flow for the part, return None.
+    """
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

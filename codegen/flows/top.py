@@ -9,8 +9,8 @@ numbers, and e_k are fixed vectors.
   rotation commutes with all turns.
 - If the adjoint action does not preserve the dot product, c is 0.
 
-If there is at most one turn, as for a symmetric top, all flows commute. Their composition is the exact flow
-of the function. The turns of an asymmetric top do not commute with each other.
+If there is at most one turn, all flows commute. Their composition is the exact flow of the function. An
+example is a symmetric top. The turns of an asymmetric top do not commute with each other.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a quadratic function of the momentum into rotations.
 
-    If the group is abelian, it has no rotations, and the result is None. If ``formula`` is not a quadratic
-    function of the momentum with rational coefficients, the result is a part without a flow.
+    If the group is abelian, the result is None. If ``formula`` is not a quadratic function of the momentum
+    with rational coefficients, the result is a part without a flow.
     """
     if formula.problem.group.abelian:
         return None
@@ -86,7 +86,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum commutes with the first turn. Both flows form one summand.
+        # The rotation about the momentum and the first turn commute. These two flows form one summand.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]

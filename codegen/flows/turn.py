@@ -17,7 +17,7 @@ class Turn(Flow):
     """A rotation about the fixed axis e: the flow of H = r (e.P)^2/2 + c e.P, where P is the momentum.
 
     The attributes are e = ``axis``, r = ``rate`` and c = ``offset``. Because e.P is conserved, the rotation
-    angle after the time tau is tau (r e.P + c).
+    angle after the time tau is tau (r e.P + c). Let (q, mu) be the state.
 
     - If the axis is fixed in the body (``body`` is true), P = Ad*_q mu. The flow multiplies q from the right,
       and mu is constant.

@@ -1,10 +1,11 @@
-"""Lie groups and their actions. Both compute with floats, power series or expressions (see
-:mod:`codegen.ir.domain`).
+"""Lie groups and their actions.
+
+All coordinates are floats, power series or expressions (see :mod:`codegen.ir.domain`).
 
 Each group has its own file, and each action has its own file in ``actions``. To define your own group, write
 a subclass of :class:`LieGroup` (see :mod:`codegen.groups.base`). To define your own action, write a subclass
-of :class:`Action`. You can use the class in a scene (a problem). :func:`register` adds the class to the list
-of groups or to the list of actions.
+of :class:`Action`. You can use your class in scenes (problems). The function :func:`register` adds a class to
+the list of groups or to the list of actions.
 """
 
 from __future__ import annotations
@@ -137,7 +138,7 @@ def register(cls: Registered) -> Registered:
 
 
 def unregister(cls: type[LieGroup] | type[Action]) -> None:
-    """Remove a class from the list of groups or the list of actions. :func:`register` added this class."""
+    """Remove a class that :func:`register` has added to the list of groups or to the list of actions."""
     from codegen.groups.actions import ACTIONS
     from codegen.groups.base import LieGroup
 

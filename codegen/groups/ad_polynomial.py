@@ -20,13 +20,13 @@ from codegen.ir.domain import Domain
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
-    """Return b and c such that the product of ``word`` is 1 + b t + c t^2. The variable t has t^3 = -z t.
+    """Return b and c such that the product of the factors in ``word`` is 1 + b t + c t^2.
 
-    The factors in ``word`` are functions of t (:mod:`codegen.ir.ad_series`). If z may be negative, ``signed``
-    must be true.
+    The factors are functions of a variable t with t^3 = -z t (:mod:`codegen.ir.ad_series`). If z may be
+    negative, ``signed`` must be true.
 
-    All exponentials in ``word`` are combined into exp(a t). The first factor dexp(s t) is combined with
-    exp(a t) to (exp((a + s) t) - exp(a t))/(s t). The remaining factors are multiplied one by one.
+    All exponentials in ``word`` are combined into one exponential exp(a t). The product of exp(a t) and the
+    first factor dexp(s t) is (exp((a + s) t) - exp(a t))/(s t). All other factors are multiplied one by one.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -55,9 +55,10 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``.
+    """Return the coefficients of t and t^2 in a sum of exponentials, where t^3 = -z t.
 
-    The rule t^3 = -z t replaces powers above t^2. If z may be negative, ``signed`` must be true.
+    For each pair (k, r) in ``terms``, the sum contains r exp(k t)/t^j. If z may be negative, ``signed`` must
+    be true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -79,14 +80,14 @@ def _exponentials(
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     """Return b and c with phi(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
-    The function phi is dexp or dexpinv, and s is the scale of ``factor``. The method ignores the power of
-    ``factor``.
+    The argument ``factor`` represents phi(s t)^p, where phi is dexp or dexpinv. The exponent p does not
+    change the result.
     """
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Because t^3 = -z t, odd powers of t are multiples of t, and even powers are multiples of t^2.
-    # Horner's rule computes ``sums``, the coefficients of t and t^2.
+    # Because t^3 = -z t, the powers t, t^3, t^5, ... are multiples of t, and the powers t^2, t^4, ... are
+    # multiples of t^2. Horner's rule computes the coefficients of t and t^2, the entries of ``sums``.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -99,7 +100,7 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
-    with index k at s^2 z/4. If z <= 0, c_2 is at least 3 c_3, and c_2 - c_3 has no cancellation.
+    with index k at s^2 z/4. If z <= 0, c_2 is at least 3 c_3. Therefore the difference c_2 - c_3 is accurate.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))

@@ -43,8 +43,8 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` describes the order of the coordinates. It is the end of a phrase in the headers of emitted
-      code, such as ``, row by row`` in ``element of SO(3), row by row``.
+    - ``layout`` describes the order of the coordinates. In the headers of emitted code, it follows the name
+      of the group. An example is ``, row by row`` in ``element of SO(3), row by row``.
     """
 
     name: str
@@ -53,8 +53,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. It is printed if a scene is
-    converted to equations on R^n (:mod:`codegen.scene.classical_forms`).
+    """A noun for the coordinates of an element, such as ``unit quaternion``. If a scene is converted to
+    equations on R^n (:mod:`codegen.scene.classical_forms`), this noun is printed.
     """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
@@ -108,8 +108,9 @@ class LieGroup(ABC):
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t e_k), where e_k is a basis element of the algebra. A subclass may use a shorter
-        formula.
+        """Return exp(t e_k), where e_k is a basis element of the algebra.
+
+        By default, :meth:`exp` is called. A subclass may use a shorter formula.
         """
         zero: S = d.rational(0)
         return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))
@@ -151,7 +152,7 @@ class LieGroup(ABC):
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return the coordinates of an element as a sympy column of :meth:`symbols`."""
+        """Return an element as a sympy column. Its entries are the symbols from :meth:`symbols`."""
         from sympy import Matrix
 
         return Matrix(self.symbols(name))

@@ -1,4 +1,7 @@
-"""The truncated series of dexp^{-1}_x. It is a sum of B_k/k! ad_x^k with the Bernoulli numbers B_k."""
+"""The truncated series of dexp^{-1}_x: the sum of B_k/k! ad_x^k for k = 0, ..., order.
+
+B_k are the Bernoulli numbers with B_1 = -1/2.
+"""
 
 from __future__ import annotations
 

@@ -4,8 +4,8 @@ A group declares a capability by inheriting the class of the capability. Code th
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
 returns None, and ``require`` raises an error with the name of the capability.
 
-Do not use ``isinstance``, because its result may be wrong for a direct product. The class of direct products
-inherits several capabilities. A direct product lacks a capability if one of its factors lacks it.
+Do not use ``isinstance``. The class of direct products inherits several capabilities. But if a factor lacks
+one of these capabilities, the direct product lacks this capability, too.
 """
 
 from __future__ import annotations
@@ -77,8 +77,9 @@ class Coadjoint(LieGroup):
 
         The linear map D is the derivative of dexpinv(x, y, order) with respect to x.
 
-        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over 0 <= i < k <= order. Here z is
-        ad_x^{k-1-i} y, and B_k are the Bernoulli numbers. The formula is eq. 3.16 of H. Marthinsen's thesis.
+        The covector p is the sum of -B_k/k! ad*_z (ad*_x)^i mu over all i and k with 0 <= i < k <= order.
+        For each term, z = ad_x^{k-1-i} y. B_k are the Bernoulli numbers. The formula is eq. 3.16 of
+        H. Marthinsen's thesis.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -95,9 +96,9 @@ class Coadjoint(LieGroup):
         return total
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return the momentum of the product of exp(x, n) and (q, mu) in the group T*G.
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The momentum is Ad*_{exp(-x)} mu + dexp*_{-x} n. It does not depend on q.
+        For every q in G, this is the momentum of the product of exp(x, n) and (q, mu) in T*G.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -114,7 +115,7 @@ class Coadjoint(LieGroup):
 
 
 class RightTrivialisation(LieGroup):
-    """The inverse of the map from x to the tangent vector x.g. The Jacobian of a step needs this inverse."""
+    """A method that computes x from the tangent vector x.g. The Jacobian of a step needs this method."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
@@ -135,7 +136,8 @@ class LeftTranslation(Coadjoint):
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations of the group as replacement rules.
 
-        Each rule replaces a product of two coordinates by a polynomial. Both are equal on the group.
+        Each rule replaces a product of two coordinates by a polynomial. For elements of the group, the
+        product and the polynomial are equal.
         ``q`` contains the names of the coordinates of an element.
         """
 
@@ -149,9 +151,9 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x), where x is expressed in the body frame.
+    """The product g exp(x) for an element x of the algebra in the body frame.
 
-    To derive an integrator in the body frame, the compiler needs this product.
+    Integrators in the body frame use this product.
     """
 
     provides: ClassVar[str] = "body frame"
@@ -186,8 +188,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        The method may need the sum of f v over some of the terms. A caller that knows a short formula for
-        this sum passes the function ``total``. Its argument contains the indices of the terms.
+        ``total`` is an optional function. It returns the sum of f v over some of the terms by a short
+        formula. The argument of ``total`` contains the indices of these terms.
         """
 
 
@@ -306,7 +308,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return [Symbol(f"{name}{i}{mark}{j}", real=True) for i in rows for j in rows]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return the symbols of the entries as a square sympy matrix."""
+        """Return an element as a square sympy matrix. Its entries are the symbols from :meth:`symbols`."""
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
@@ -333,7 +335,8 @@ class Covered(LieGroup):
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The element q must satisfy the equations of the cover. The image is a polynomial in q.
+        The coordinates q must satisfy the equations of the covering group. The coordinates of the image are
+        polynomials in q.
         """
 
     @abstractmethod
@@ -374,11 +377,11 @@ class Rotations(MatrixElements):
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y. Some groups do not compute the matrix exp(x)."""
+        """Return exp(x) y for a column y. A subclass may use a formula without the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
-    """The group acts on the points of a vector space. An element may rotate and translate a point."""
+    """The group acts on the points of a vector space, for example by rotations and translations."""
 
     provides: ClassVar[str] = "motion of points"
     point_size: int
@@ -445,8 +448,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of coordinate indices. The coordinates in each set are functions of the coordinates
-        outside the set.
+        """Return sets of coordinate indices. For each set, the coordinates with these indices are functions
+        of all other coordinates.
         """
 
     @abstractmethod

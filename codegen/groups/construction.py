@@ -25,8 +25,8 @@ def check_size(name: str, n: object, least: int) -> None:
 def check_factor(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not a group.
 
-    ``name`` is a text for the error message, such as "a product". It describes the object that has ``group``
-    as a factor or base.
+    The error message contains ``name``, a text such as "a product". This text describes the larger group that
+    is constructed from ``group``.
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

@@ -15,9 +15,9 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
     coordinates of mu. Arnold and Khesin (I.10.B) call T*G the magnetic extension of G.
 
-    An element of the algebra is a pair (xi, n). Let xi.q be the derivative of exp(eps xi) q at eps = 0. If a
-    field f has the value f(q, mu) = (xi, n), its equations are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of
-    H. Marthinsen's thesis). :class:`SceneError` is raised if G has no coadjoint action.
+    An element of the algebra is a pair (xi, n). Let xi.q be the derivative of exp(eps xi) q at eps = 0. A
+    field f with the value f(q, mu) = (xi, n) has the equations q' = xi.q and mu' = n - ad*_xi mu. This is
+    eq. 2.27 of H. Marthinsen's thesis. :class:`SceneError` is raised if G has no coadjoint action.
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
@@ -36,7 +36,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
-        The number of coordinates decides: an element of the group has ``self.size`` coordinates.
+        If x has ``self.size`` coordinates, x is split as an element of the group.
         """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
@@ -86,8 +86,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``, otherwise None.
 
-        T*G has the operations of Projection only if G has them. T*G has the operations of Inverse only if G
-        has them.
+        If G has no Projection, T*G has no Projection. If G has no Inverse, T*G has no Inverse.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own

@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp_x as an argument ``word`` of :meth:`CubicAd.series`."""
+"""The word (:mod:`codegen.ir.ad_series`) with the single factor dexp."""
 
 
 class CubicAd(ClosedFormSeries):
@@ -33,9 +33,10 @@ class CubicAd(ClosedFormSeries):
         """
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x.
+        """Return W(ad_x) v, where W is the product of the factors in ``word``. If ``dual`` is true, return
+        W(ad*_x) v.
 
-        The method always computes two brackets.
+        For each ``word``, only two brackets are needed.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -57,8 +58,8 @@ class CubicAd(ClosedFormSeries):
         1 + b ad_x + c ad_x^2. Let A, B and C be the sums of f v, f b v and f c v. The result is
         A + ad_x (B + ad_x C), which needs only two brackets.
 
-        If ``dual`` is true, ad*_x replaces ad_x. If ``total`` is given, ``total(indices)`` with the indices
-        of all terms returns A.
+        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A. Its
+        argument contains the indices of all terms.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -47,7 +47,7 @@ def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
 
 class DualDomain:
     """A domain (:mod:`codegen.ir.domain`) of dual numbers. The components of the dual numbers are scalars of
-    ``domain``. Apart from arithmetic, only Stumpff functions are implemented.
+    ``domain``. Only arithmetic and Stumpff functions are implemented.
     """
 
     def __init__(self, domain: Domain) -> None:

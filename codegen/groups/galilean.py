@@ -15,8 +15,8 @@ from codegen.ir.domain import Domain
 class Galilean(Semidirect):
     """The group of the maps (y, t) -> (R y + v t + p, t + s) of events. An event has position y and time t.
 
-    The coordinates of an element are R (row by row), v, p and s. The pairs (R, v) form the group SE(3), where
-    the velocity v is the translation.
+    The coordinates of an element are R (row by row), v, p and s. The pairs (R, v) form the group SE(3).
+    In this group, the velocity v is the translation.
 
     The elements of the algebra are (w, b, u, r). The components w, b, u and r are the derivatives of R, v, p
     and s at the identity. The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r).
@@ -44,7 +44,7 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return (dexp_w p + r psi b, r) for x = (w, b) and u = (p, r).
+        """Return the translation of exp(x, u). For x = (w, b) and u = (p, r), it is (dexp_w p + r psi b, r).
 
         Let z = |w|^2, and let W be the matrix of the map b -> w cross b. The matrix psi is
         1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2. Here c_2 and c_3 are Stumpff functions, and c_2' is the

@@ -11,10 +11,10 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large matrices. Its elements are never computed, because they have n^2 entries.
+    """A group of large n x n matrices. Its elements have n^2 entries and are never computed.
 
-    Each operation of the group raises :class:`codegen.errors.SceneError`. The text ``families`` for the error
-    message lists the families of methods that work for this group.
+    Each operation of the group raises :class:`codegen.errors.SceneError`. The error message contains the text
+    ``families``. This text lists the families of methods that work for the group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -26,7 +26,7 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"the elements of {self.name} have too many coordinates for formulas",
+            f"{self.name} is too large for formulas with the coordinates of its elements",
             expected=f"a method of the family {self.families}",
             hint="for formulas with coordinates, use a scene with matrices of at most eight rows",
         )
@@ -62,8 +62,8 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. Emitted steps compute exp(A) y from products of matrices and vectors, without the
-    matrix exp(A) (:mod:`codegen.ir.linear_array_step`).
+    """GL(n) for large n. For a matrix A and a vector y, emitted steps compute exp(A) y from products of
+    matrices and vectors (:mod:`codegen.ir.linear_array_step`). The matrix exp(A) is not computed.
     """
 
     def __init__(self, n: int) -> None:

@@ -152,8 +152,9 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
 def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges.
 
-    ``a`` has n rows and columns, and ``b`` has n rows. If ``a`` is close to the unit matrix, all pivots are
-    close to 1. If the symmetric part of ``a`` is positive definite, all pivots are positive.
+    The matrix ``a`` has n rows and columns, and the matrix ``b`` has n rows. If ``a`` is close to the unit
+    matrix, all pivots are close to 1. If the symmetric part of ``a`` is positive definite, all pivots are
+    positive. In both cases, no row exchanges are needed.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

@@ -1,10 +1,11 @@
 """Matrix groups that are given by a basis of their Lie algebra.
 
-If the product of a few matrices of the algebra is always zero, the matrix exponential is a short sum. In all
-other cases, a vector function (:mod:`codegen.ir.vector_function`) computes the matrix exponential.
+The exponential of a matrix is a power series. If all products of four matrices of the algebra are zero, the
+exponential is computed as a short sum. In all other cases, it is computed by a vector function
+(:mod:`codegen.ir.vector_function`).
 
-Let L be the derivative of the exponential at a matrix x in the direction of a matrix y. Then
-dexp_x y = L exp(-x).
+The map dexp_x satisfies dexp_x y = L exp(-x). Here L is the derivative of the exponential at the matrix x in
+the direction of the matrix y.
 """
 
 from __future__ import annotations
@@ -199,8 +200,9 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for a nilpotent algebra: the finite sum of (ad*_x)^k mu/(k+1)! over k >= 0."""
         total, term = mu, mu
-        # Let m be the nilpotency. Then x^m = 0. The matrix (ad_x)^(2 m - 1) y is a linear combination of the
-        # products x^i y x^j with i + j = 2 m - 1. Each product is zero, because i or j is at least m.
+        # Let m = ``nilpotency``. All products of m matrices of the algebra are zero, and therefore x^m = 0.
+        # The matrix (ad_x)^(2 m - 1) y is a linear combination of the products x^i y x^j with
+        # i + j = 2 m - 1. Each product is zero, because i or j is at least m.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -210,7 +212,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        This is the momentum of the product exp(x, n) (q, mu) in T*G. It does not depend on q.
+        For every q in G, this is the momentum of the product of exp(x, n) and (q, mu) in T*G.
         """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)
@@ -219,9 +221,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) in T*G: exp(x) q, followed by the result of :meth:`transport`.
+        """Return the product of exp(x, n) and (q, mu) in the group T*G.
 
-        If the algebra is not nilpotent, exp(x) is computed only once.
+        The first component is exp(x) q. The second component is the result of :meth:`transport`. If the
+        algebra is not nilpotent, both components are computed from the same matrix exp(x).
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)
@@ -233,8 +236,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return exp(x) and the momentum p = Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        Let a = hat(x), M = dual_hat(mu) and N = dual_hat(n). The matrix L is the derivative of exp at a in
-        the direction N^T. Let R = (exp(a) M^T + L) exp(-a). Then p = dual_vee(R^T).
+        Let a = hat(x), M = dual_hat(mu) and N = dual_hat(n). Let L be the derivative of exp at a in the
+        direction N^T, and let R = (exp(a) M^T + L) exp(-a). Then p = dual_vee(R^T).
         """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
@@ -275,10 +278,10 @@ class IsometryGroup(MatrixGroup, Projection):
         return self.inverse(d, exponential)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g (3 - r g)/2 with r = J^-1 g^T J. If g is in the group, r is the inverse of g.
+        """Return g (3 - r g)/2, where r = J^-1 g^T J is the result of :meth:`inverse`.
 
-        This is one step of the Newton-Schulz iteration. Near the group, each step doubles the number of
-        correct digits.
+        If g is in the group, the result is g. The formula is one step of the Newton-Schulz iteration. Near
+        the group, each step doubles the number of correct digits.
         """
         half, three = d.rational(1, 2), d.rational(3)
         gram = matmul(self.inverse(d, g), g, self.n)

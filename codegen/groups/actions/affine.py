@@ -15,10 +15,9 @@ class AffineAction(Action):
 
     An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c.
 
-    For example, consider the equation z' = L z + N(z) with a constant matrix L. The Lie-Euler method takes
-    c = N(z), where z is the state at the beginning of the step. A step of size h maps z to
-    exp(h L) z + h phi(h L) N(z), where phi(w) = (exp(w) - 1)/w. This method is known as the exponential Euler
-    method.
+    For example, consider the equation z' = L z + N(z) with a constant matrix L. Let z0 be the state at the
+    beginning of a step. The Lie-Euler method replaces N(z) by the constant c = N(z0). A step of size h maps
+    z0 to exp(h L) z0 + h phi(h L) N(z0), where phi(w) = (exp(w) - 1)/w. This is the exponential Euler method.
     """
 
     name = "affine maps"

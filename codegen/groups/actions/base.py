@@ -76,13 +76,13 @@ class Action(ABC):
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
 
-        By default, the result is y. This is sufficient if the orbit is an open subset of the manifold: a
-        point with a small error is still on an open orbit.
+        By default, the result is y. If the orbit is an open subset of the manifold, this is sufficient,
+        because a small error does not move a point out of the orbit.
         """
         return y
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x).y. By default, exp(x) is computed and then acts on y. A subclass may override this
-        method with a cheaper formula.
+        """Return exp(x).y. By default, exp(x) is computed, and :meth:`act` applies it to y. A subclass may
+        override this method with a cheaper formula.
         """
         return self.act(d, group, group.exp(d, x), y)

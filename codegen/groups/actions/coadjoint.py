@@ -16,7 +16,8 @@ class CoadjointAction(Action):
     Lie-Poisson equation mu' = -ad*_{H'(mu)} mu, use the field f(mu) = H'(mu). For the Lie-Poisson equation
     mu' = ad*_{H'(mu)} mu, use f(mu) = -H'(mu).
 
-    Casimir functions are constant on each orbit. Therefore the solutions conserve the Casimir functions.
+    Each solution stays on one orbit of the action. Casimir functions are constant on each orbit. Therefore
+    the solutions conserve the Casimir functions.
     """
 
     name = "coadjoint action"

@@ -39,8 +39,7 @@ class DiagonalAction(Action):
             size = action.point_size(group)
             if size is None:
                 raise SceneError(
-                    f"the action {action.name}, in a diagonal action, does not define the number of "
-                    "coordinates of a point",
+                    f"the action {action.name} does not define the number of coordinates of a point",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",

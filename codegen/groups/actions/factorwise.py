@@ -76,9 +76,10 @@ class FactorwiseAction(Action):
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Compute operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), and so on.
+        """Call operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), and so on.
 
-        Here x = (x1, x2, ...) and y = (y1, y2, ...). The results are joined to one tuple of coordinates.
+        Here x = (x1, x2, ...) and y = (y1, y2, ...). The method returns all results as one tuple of
+        coordinates.
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)

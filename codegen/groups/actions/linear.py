@@ -39,7 +39,7 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, the divisor ``squared`` is zero. For a zero divisor, ``quotient`` returns 0.
+        # If ``start`` is zero, the divisor ``squared`` is zero, and ``quotient`` returns 0.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class RightMultiplication(Action):
     """A group acting on itself by g.y = y g^-1. This is a left action: (g k).y = g.(k.y).
 
-    The velocity is x.y = -y x. Therefore the equation y' = y F(y) has the field f = -F. For example, y is the
-    attitude of a body, and F(y) is the angular velocity in the body frame.
+    The velocity is x.y = -y x. Therefore the equation y' = y F(y) has the field f = -F. For example, let y
+    be the attitude of a body. Then F(y) is the angular velocity in the body frame.
     """
 
     name = "right multiplication"
@@ -51,6 +51,6 @@ class RightMultiplication(Action):
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))
-        # The product y x is equal to (Ad_y x) y, because Ad_y x = y x y^-1.
+        # Because Ad_y x = y x y^-1, the product y x is equal to (Ad_y x) y.
         moved = group.require(Coadjoint).Ad(d, y, x)
         return tuple(-a for a in group.velocity(d, moved, y))

@@ -49,8 +49,8 @@ class SecondKind(CoordinateMap):
         """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Let E_k = exp(x_k e_k). Both sides of dtau_x v = y are multiplied by the inverse of Ad_{E_1}. Then
-        # the columns of the matrix are e_1, e_2, Ad_{E_2} e_3, ..., and the first two pivots are 1.
+        # Let E_k = exp(x_k e_k). The equation dtau_x v = y is multiplied by the inverse of Ad_{E_1}. The new
+        # matrix has the columns e_1, e_2, Ad_{E_2} e_3, and so on. Therefore the first two pivots are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
