@@ -87,8 +87,9 @@ class InterpretedIntegrator(Integrator):
         """Yield the keyword arguments for a call of the emitted module. The caller makes this call
         inside a ``with`` block.
 
-        If the step solves equations, the only keyword argument is ``statistics``. Otherwise there is none. At
-        the end of the ``with`` block, the counts in ``statistics`` are added to ``begun.statistics``.
+        If the step solves equations, the only keyword argument is ``statistics``. Other steps have no keyword
+        arguments. At the end of the ``with`` block, the numbers in ``statistics`` are added to
+        ``begun.statistics``.
 
         If the emitted module raises its exception ``StepFailed``, this function raises
         :class:`codegen.arrival.StepFailed`.
@@ -99,7 +100,7 @@ class InterpretedIntegrator(Integrator):
         except self.module.StepFailed as failure:
             failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
             if hasattr(failure, "t"):
-                # The number of rejected steps is not known here. It is set to 0.
+                # The argument 0 is the number of rejected steps. The correct number is not known here.
                 state, status = failed.state, failed.status
                 failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
             raise failed from None

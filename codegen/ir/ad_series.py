@@ -54,8 +54,8 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # The factors commute, so the exponents of equal functions are added. ``powers`` maps (function, scale,
-    # order) to the exponent. The product of all exponentials is exp(``rate`` t).
+    # The factors commute, so the exponents of equal functions are added. For dexp and dexpinv, ``powers``
+    # maps (function, scale, order) to the exponent. The product of all factors exp is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
@@ -67,8 +67,8 @@ def simplified(word: Word) -> Word:
             powers[key] = powers.get(key, 0) + f.power
     # The loop runs over a copy of the entries, because its body adds keys to ``powers``.
     for (function, scale, order), n in list(powers.items()):
-        # With s = ``scale``, exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). This rule removes the
-        # combined exponential, so the rule is applied at most once.
+        # Let s be ``scale``. The rule is exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). Then no
+        # exponential is left, so the rule is applied at most once.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1

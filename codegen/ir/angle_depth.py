@@ -1,8 +1,8 @@
 """The depth of a step: the length of its longest chain of rotation angles.
 
 In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. A rotation by
-a large angle amplifies the rounding errors of the previous rotations. For a longer chain, a step therefore
-accepts only smaller angles (:func:`codegen.snippets.stumpff.limit`).
+a large angle amplifies the rounding errors of the previous rotations. The largest permitted angle therefore
+depends on the length of the chain (:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ def chain(kernel: Kernel) -> int:
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # The outputs are the new state. The depth of the step must be at least 1, because
-    # :func:`codegen.snippets.stumpff.limit` divides by the depth.
+    # The result must be at least 1, because :func:`codegen.snippets.stumpff.limit` divides by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
@@ -46,7 +45,8 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     """Return the depth of an expression. ``depths`` contains the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
-        # ``below`` is the largest depth of the arguments. In ``walk``, each node follows its arguments.
+        # ``below`` is the largest depth of the arguments. ``walk`` yields the arguments before the node, so
+        # their depths are known.
         below = max((by_node[a.id] for a in node.args), default=0)
         # The inputs of the step, such as the old state, have depth 0: they depend on no angle of this step.
         if node.op == "sym":

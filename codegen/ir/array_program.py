@@ -81,8 +81,9 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A constant matrix. ``diagonals`` contains the entries of a banded matrix. For other matrices, ``full``
-    is one formula for all entries, or a tuple of numbers, row by row.
+    """A constant matrix. ``diagonals`` contains the entries of a banded matrix.
+
+    For other matrices, ``full`` is a tuple of numbers, row by row, or one formula for all entries.
     """
 
     name: str
@@ -106,7 +107,7 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that may be non-zero. In a banded matrix they are on the ``diagonals``."""
+        """The number of entries that may be non-zero: all entries, or the entries on ``diagonals``."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
@@ -134,8 +135,8 @@ def _valued(
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # The formula is evaluated twice. The first evaluation replaces only the row and column indices by
-    # numbers. ``kept`` maps the other symbols to themselves.
+    # The formula is evaluated twice. The first evaluation replaces the symbols ``ROW`` and ``COLUMN`` by
+    # numbers. ``kept`` maps each symbol of the formula to itself.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
         # The formula may compare indices to select a branch. In the first evaluation all indices are exact
@@ -184,7 +185,7 @@ class Apply:
 class Term:
     """One term of a :class:`Combination`: a coefficient times a matrix, or times its transpose.
 
-    A product that is smaller than the target is padded with zeros on the right and below.
+    If the term has fewer rows or columns than the target, the missing entries are zero.
     """
 
     coefficient: Expr
@@ -256,9 +257,9 @@ class ArrayProgram:
         this program. The names of all other arrays get the prefix ``name``.
         """
 
-        # The prefix prevents equal names of arrays in the two programs.
+        # Without the prefix, arrays of the two programs might have the same name.
         def now(matrix: Matrix) -> Matrix:
-            # ``argument`` and ``result`` keep their names, which are names of the other program.
+            # ``argument`` and ``result`` are matrices of the other program. Their names get no prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -289,8 +290,8 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first statement that assigns to an array creates the array with the size of its target. This target
-    # must be the whole array.
+    # The first assignment to an array creates the array. The target of this assignment must be the whole
+    # array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -321,15 +322,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # The factor C (:class:`Apply`) has the entry a in row ``row`` and column ``column``. For M C, column
-        # ``row`` of M is multiplied by a and added to column ``column`` of the result.
+        # The number a is the entry of the matrix C (:class:`Apply`) in row r = ``row`` and column
+        # c = ``column``. For the product M C, a times column r of M is added to column c of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For C M, row ``column`` of M is multiplied by a and added to row ``row`` of the result.
+            # For the product C M, a times row c of M is added to row r of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -366,8 +367,8 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # An entry that is a sum of k > 0 products needs k - 1 additions. If each entry has a product, the
-            # total is ``products - size``. If some entries have no product, this difference may be negative.
+            # If an entry of the target is a sum of k > 0 products, it needs k - 1 additions. If all entries
+            # are such sums, the total is ``products - size``. If many entries are zero, this may be negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

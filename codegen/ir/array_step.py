@@ -39,7 +39,7 @@ Emitted code chooses the number of terms from the norm of z.
 
 MOST_TERMS = 18
 """The largest number of terms in the series of phi(z) = (exp(z) - 1)/z. If the norm of z is at most 1, the
-remainder of the series after these terms is smaller than the rounding errors.
+omitted terms are smaller than the rounding errors.
 """
 
 
@@ -75,10 +75,9 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The new point is computed by the last formula at the beginning of this module. The four summands
-        # are the multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. For each
-        # of the ``TERMS`` terms, the last product needs one multiplication by G S. A multiplication by S
-        # follows.
+        # The last formula at the beginning of this module gives the new point. The four summands are the
+        # multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. Each of the
+        # ``TERMS`` terms of phi needs one product with the matrix G S. The factor S needs one more product.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -128,6 +127,6 @@ class ArrayStep:
                     own = statement.operations
                 case _:
                     own = operations(statement)
-            # The statement :class:`AddUnit` has no multiplications, so its ``own`` has no entry ``mul``.
+            # For :class:`AddUnit`, the dictionary ``own`` has no key ``mul``, so 0 is added.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

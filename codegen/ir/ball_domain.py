@@ -131,8 +131,8 @@ class BallDomain:
     def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
         """Return the results of a vector function.
 
-        ZeroDivisionError is raised for the inverse of a singular matrix. The exponential of a matrix raises
-        OverflowError (:func:`codegen.ir.matrix_balls.exponential`).
+        ZeroDivisionError is raised for the inverse of a singular matrix. OverflowError is raised if the
+        exponential of a matrix cannot be computed (:func:`codegen.ir.matrix_balls.exponential`).
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
@@ -151,8 +151,8 @@ class BallDomain:
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # The inversion of an ill-conditioned matrix loses many bits. With twice the working
-                # precision, the inverse is accurate for condition numbers up to about 2^``self.bits``.
+                # The inversion of an ill-conditioned matrix loses many bits. Let b be ``self.bits``. With
+                # 2 b bits, the inverse is accurate for condition numbers up to about 2^b.
                 inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -173,8 +173,8 @@ class BallDomain:
                 return 2 * ((root / 2).sin() / root) ** 2
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
-        # For z <= 1 the sum of the series is accurate. For z < 0 all its terms are positive. For
-        # 0 < z <= 1 the terms decrease fast, so the cancellation is small.
+        # For z <= 1 the series loses almost no digits by cancellation. For z < 0 all terms are positive. For
+        # 0 < z <= 1 the terms decrease fast.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -192,7 +192,8 @@ class BallDomain:
             # For small z, c_{k-1} and k c_k are both close to 1/(k-1)!, and their difference would lose
             # digits.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
-        # The series of c_k has the terms (-z)^j/(2j+k)!. The term j = 0 is constant, so its derivative is 0.
+        # The series of c_k has the terms (-z)^j/(2j+k)!. The derivative of the constant term j = 0 is 0, so
+        # the sum begins with j = 1.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -209,7 +210,8 @@ class BallDomain:
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
-        # The series of c_k has the terms (-z)^j/(2j+k)!. The second derivatives are 0 for j = 0 and j = 1.
+        # The series of c_k has the terms (-z)^j/(2j+k)!. The second derivatives for j = 0 and j = 1 are 0, so
+        # the sum begins with j = 2.
         total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -244,6 +246,7 @@ class BallDomain:
 
     def increment(self, x: arb) -> arb:
         """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # For abs(x) <= 1, the difference quotient has a rounding error of about eps/d. Its truncation error
-        # is about d. For d = sqrt(eps) the two errors are equal. For larger abs(x), d is sqrt(eps) abs(x).
+        # Let eps be about 10^-``digits``. For abs(x) <= 1, the difference quotient has a rounding error of
+        # about eps/d and a truncation error of about d. These errors are equal for d = sqrt(eps). For
+        # abs(x) > 1, d is sqrt(eps) abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()

@@ -3,9 +3,9 @@
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
 is not a linear combination itself. Numeric factors of products and powers become coefficients of the linear
-combination. The product c (1/y) of a number and an inverse becomes the quotient c/y. For example,
-3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x). The rewritten expressions are used only if they have fewer
-operations than the given expressions.
+combination. The product c (1/y) with a number c becomes the quotient c/y. For example, 3/2 (1/sqrt x)^3
+becomes (3/2)/(x sqrt x). The rewritten expressions are used only if they have fewer operations than the given
+expressions.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ atom). For a constant term the atom is the expression 1.
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the expressions ``roots`` with their constants combined.
 
-    If this does not reduce the number of operations, ``roots`` is returned unchanged. The expressions in
-    ``kept`` are left as they are, but a numeric factor of such an expression may be combined with other
-    numbers.
+    If this does not reduce the number of operations, ``roots`` is returned unchanged.
+
+    The expressions in ``kept`` are not rewritten, apart from their numeric factors. For example, if ``kept``
+    contains 3 x, the factor 3 may be combined with other numbers.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -39,13 +40,13 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # ``bare`` contains the expressions in ``kept`` without their numeric factors, for example x for 3 x.
+    # ``bare`` contains each expression in ``kept`` without its numeric factor, for example x for 3 x.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
             # The node is treated as an atom. Its linear combination has one term with the coefficient 1.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The operations inside the nodes of ``bare`` are not counted, because they do not change.
+    # The expressions in ``bare`` do not change, so their operations are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
@@ -73,16 +74,16 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """Return the powers y^n of inverse roots y = 1/sqrt x that are to be rewritten as quotients. For example,
     y^3 becomes 1/(x sqrt x).
 
-    A power of y is called an intermediate value if it occurs only as a factor of other powers of y. The
-    powers of y are rewritten if every other power has an odd exponent n >= 3.
+    If a power of y is used only in other powers of y, it is an intermediate value. All other powers of y are
+    final values. The powers of y are rewritten if each final value has an odd exponent n >= 3.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # The list contains pairs (node, user), where the user has ``node`` as an argument. A root has the user
-    # None.
+    # The list contains a pair (argument, node) for each argument of each node. For a root the pair is
+    # (root, None).
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -95,9 +96,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pairs (node number of y, n) of the powers that are not intermediate values.
+    # ``read`` contains the pairs (node number of y, n) of the final values.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # ``bases`` contains each y with a pair in ``read`` whose n is 1 or even. Its powers are not rewritten.
+    # ``bases`` contains the node numbers of those y whose powers are not rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -138,10 +139,10 @@ class _Gathering:
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        A term c (1/y) becomes (c/e) (e/y) with a positive number e (see :meth:`_inverse`).
+        A term c (1/y) becomes (c/e) (e/y). The method :meth:`_inverse` selects the positive number e.
         """
         if node.id not in self.written:
-            # The expression is built only once for each node, and is stored.
+            # The expression is stored, so that it is built only once for each node.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -154,16 +155,16 @@ class _Gathering:
         """
         if not _is_inverse(atom):
             return c, atom
-        # ``numerator`` is e, and ``atom`` is 1/y. In the first call c/e is 1 or -1, so the term (c/e) (e/y)
-        # needs no multiplication. The division e/y is not slower than 1/y.
+        # ``numerator`` is e, and ``atom`` is 1/y. The division e/y is not slower than 1/y. If e = |c|, then
+        # c/e is 1 or -1, and the term (c/e) (e/y) needs no multiplication.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are not combined with other numbers, for two reasons. Constants of two
-        # different fields cannot be added. A constant that is only known as a ball (midpoint and radius)
-        # would get a larger radius.
+        # Irrational constants are not combined with other numbers, for two reasons. Constants of different
+        # number fields cannot be added. A constant may be known only as a ball (midpoint and radius), and
+        # each operation would enlarge the radius.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -224,7 +225,7 @@ class _Gathering:
         If the node is a sum of several terms, or zero, c is 1.
         """
         total = self.sums[node.id]
-        # No common factor is taken out of a sum, because other expressions may contain the same sum.
+        # A sum is not divided by a common factor, because other expressions may contain the same sum.
         if len(total) != 1:
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()

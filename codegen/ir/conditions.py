@@ -48,7 +48,7 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
     """Convert a condition of sympy to a :data:`Condition`. The function ``node`` converts the two sides of a
-    comparison from sympy to :class:`Expr`. Error messages give ``where`` as the place of the formula.
+    comparison from sympy to :class:`Expr`. Error messages contain ``where``, the place of the formula.
 
     A condition may contain comparisons that are joined by And, Or and Not. For all other conditions,
     :class:`SceneError` is raised.

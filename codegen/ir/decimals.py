@@ -26,7 +26,7 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
-    # For b bits, 0.30103 b + 2 decimal digits always determine the number. Hence the loop always ends with
+    # A number with b bits is determined by 0.30103 b + 2 decimal digits. Hence the loop always ends with
     # ``break``.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)

@@ -33,8 +33,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     # A node is visited after all nodes that use it. At this point its adjoint is complete.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # An adjoint may be zero, because its terms may cancel. Such a node does not change the adjoints of
-        # its arguments.
+        # The terms of an adjoint may cancel. A node with the adjoint zero does not change the adjoints of its
+        # arguments.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -46,8 +46,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
     Derivatives of vector functions are expensive. Therefore a caller may pass ``moving``, the node numbers of
-    the nodes that depend on the variables. For all other arguments of a vector function, the returned list
-    contains zeros.
+    the nodes that depend on the variables. If an argument of a vector function is not in ``moving``, zero is
+    returned for this argument.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -73,8 +73,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # The derivative of a vector function consists of many expressions. It is computed only for the
-            # arguments that depend on the variables.
+            # The derivative of a vector function consists of many expressions. If an argument does not depend
+            # on the variables, zero is returned instead.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -111,8 +111,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # The Stumpff function c_0 has the derivative -c_1/2. Both functions compute c_0.
-        # ``signed_stumpff0`` is used if the argument may be negative.
+        # The Stumpff function c_0 has the derivative -c_1/2. If the argument may be negative,
+        # ``signed_stumpff0`` computes c_0.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -152,8 +152,8 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The variable x only selects a or b. Hence the derivative with respect to x is 0, except at the jump at
-    # x = 0. For a constant a or b the derivative is not needed, and is set to 0.
+    # The derivative of ``choose(x, a, b)`` with respect to x is 0, except at the jump at x = 0. If a or b is
+    # a constant, the derivative with respect to this constant is not needed. It is set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -56,7 +56,8 @@ class Domain(Protocol):
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
-        The change is the largest absolute difference. ``previous`` is the previous change or None."""
+        The change is the largest absolute difference. ``previous`` is the change of the previous sweep or
+        None."""
 
 
 class Differenced(Domain, Protocol):
@@ -119,7 +120,7 @@ def slope(k: int, z: float) -> float:
     (True, True)
     """
     if abs(z) > 1:
-        # For small z this formula loses digits: c_{k-1} and k c_k both tend to 1/(k-1)! and cancel.
+        # For small z this formula loses digits, because c_{k-1} and k c_k are both close to 1/(k-1)!.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
     for j in range(12, 0, -1):
@@ -188,12 +189,12 @@ class FloatDomain:
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
         # The change is compared with the largest unknown. A small unknown may be a sum of large terms that
-        # cancel. Its error is then as large as the rounding errors of these terms.
+        # cancel. The rounding errors of these terms do not cancel.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # Each sweep multiplies the change by about q = ``change``/``before``. The next change, q times
-        # ``change``, must be below half a unit in the last place. Two changes give only a rough value of q,
-        # so ``change`` itself must also be small.
+        # Each sweep multiplies the change by about q = ``change``/``before``. The next change is about
+        # q * ``change``. It must be below half a unit in the last place. Two changes give only a rough value
+        # of q, so ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
@@ -213,9 +214,9 @@ LARGEST_BITS = 16384
 
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
-    context. OverflowError is raised if the absolute value of an argument of a function is
-    2^:data:`LARGEST_BITS` or more. This error ends a divergent iteration before its numbers have millions
-    of digits. For such numbers, mpmath functions need a long time."""
+    context. Let n be :data:`LARGEST_BITS`. If an argument of a function has an absolute value of 2^n or more,
+    OverflowError is raised. This error ends a divergent iteration early. Otherwise the numbers might get
+    millions of digits, and mpmath functions would need a long time."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -306,8 +307,9 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change), see :meth:`Domain.settled`. The iteration has converged if the
-        change is at most 2^12 rounding units and no longer decreases, or if the change is zero."""
+        """Return the pair (converged, change), see :meth:`Domain.settled`. If the change is zero, the
+        iteration has converged. A positive change must be at most 2^12 rounding units and at least
+        ``previous``."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # While the change decreases from sweep to sweep, a further sweep gives more correct digits.
@@ -342,8 +344,8 @@ class SeriesDomain:
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the series of ``function`` at the series ``args``. ArithmeticError is raised if the result
         cannot be computed exactly. For example, the argument of sin must have no constant term. The function
-        ``quotient`` divides two series. If the divisor begins with the power h^v, the coefficients of the v
-        highest powers of h in the quotient are unknown. These coefficients are set to zero."""
+        ``quotient`` divides two series. If the divisor begins with the power h^v, truncation makes the last v
+        coefficients of the quotient unknown. These coefficients are set to zero."""
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -365,7 +367,7 @@ class SeriesDomain:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. Here c_k is also available for k > 3.
+            # This is the formula c_k' = (k c_{k+2} - c_{k+1})/2. For series, c_k is available for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
@@ -384,8 +386,8 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} cannot be computed for exact power series")
         k, step, first = starts[function]
-        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. All
-        # coefficients of exp, sinh and cosh are positive. A negated argument of ``_sum`` gives these series.
+        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. The series of
+        # exp, sinh and cosh have no negative coefficients. Here the argument of ``_sum`` is negated.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -421,8 +423,8 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return the series a/b. If all coefficients of b are zero, return 0. ArithmeticError is raised if
-        a/b has a pole at h = 0, that is, if a begins with a lower power of h than b."""
+        """Return the series a/b. If b is zero, return 0. If a begins with a lower power of h than b, a/b has
+        a pole at h = 0, and ArithmeticError is raised."""
         # ``power`` is the exponent of the lowest power of h in b.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -442,7 +444,7 @@ class SeriesDomain:
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
             # The series z has no constant term, so the lowest power of h increases from term to term. Powers
-            # above h^order are truncated. After some terms, ``term`` is therefore zero.
+            # above h^order are truncated. Hence some term is zero, and the loop ends.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -477,14 +479,14 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions. If ``expanded`` gives no simpler
-        expressions, each result is a call of the function."""
+        """Return the results of a vector function as expressions. If the method ``expanded`` of the function
+        returns None, each result is a call of the function."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for the values of functions at the time t. ``names`` are the names of the functions,
-        which the caller of the emitted code supplies. Equal times give the same symbols."""
+        """Return symbols for the values of functions at the time t, by the names of the functions. The caller
+        of the emitted code supplies these functions. Equal times give the same symbols."""
         # Emitted code calls a function only once for each time, even if several stages have the same time.
         if t.id not in self.samples:
             k = len(self.samples) + 1

@@ -1,7 +1,7 @@
 """The elementary functions tan, sinh, cosh, tanh, atan, asin and acos, with their derivatives.
 
 Formulas of a user may call these functions. The table :data:`ELEMENTARY` contains the first and second
-derivatives of each function f. The chain rule gives the Taylor series of f(a(t)) from the first derivative.
+derivatives of each function.
 """
 
 from __future__ import annotations

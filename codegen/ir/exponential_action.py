@@ -31,8 +31,8 @@ would take too long. If a matrix needs more halvings, all results are NaN.
 """
 
 SPARSE = 12
-"""The largest number of rows of a matrix whose zero entries are not passed as arguments. For these matrices,
-emitted code contains a separate sum for each row. For larger matrices, it contains a loop over all entries.
+"""If a matrix has more rows than this number, emitted code contains a loop over all entries. For other
+matrices, emitted code contains a separate sum for each row, and the zero entries are not passed as arguments.
 """
 
 
@@ -40,19 +40,19 @@ emitted code contains a separate sum for each row. For larger matrices, it conta
 def degrees(bits: int) -> tuple[int, ...]:
     """Return the available degrees of the Taylor polynomial, for floating-point numbers with ``bits`` bits.
 
-    For the largest degree m, the integers m!/j! with 0 <= j <= m need no rounding. For m + 1, some of them
-    need rounding. The other degrees are m - 4, m - 8, and so on.
+    A degree m is suitable if the integers m!/j! with 0 <= j <= m need no rounding. If m is the largest
+    suitable degree, the available degrees are m, m - 4, m - 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
     # The odd part of an integer is the integer without its factors 2. An integer needs no rounding if its
-    # odd part has at most ``bits`` bits. The odd part of m!/j! divides the odd part of m!, so only m! is
-    # tested.
+    # odd part has at most ``bits`` bits. The odd part of m!/j! is not larger than the odd part of m!, so the
+    # loop tests only factorials.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Only every fourth degree is returned. The next larger degree costs at most three more products with A.
+    # Only every fourth degree is returned. A larger degree than necessary costs a few more products with A.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -67,8 +67,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
     The norm is the largest row sum of absolute values. For degree m, the largest permitted norm is
     ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The truncation error of the Taylor
-    polynomial is then about 2^-10 times the unit roundoff 2^-bits. Larger truncation errors could add up over
-    many steps.
+    polynomial is then about 2^-10 times the unit roundoff 2^-bits. The factor 2^-10 allows for the sum of the
+    truncation errors of many steps.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -153,7 +153,7 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # If the block matrix is small, ``expanded`` removes its zeros from the arguments.
+        # For a small block matrix, ``expanded`` omits the zero entries from the arguments.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -161,11 +161,13 @@ class ExponentialAction(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return simpler expressions for exp(A) y, or None.
 
+        - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A has at most :data:`SPARSE` rows, the result is a call with the non-zero entries of A and y.
-        - In all other cases, and if ``pattern`` is not 0, the result is None.
+        - If A is not zero and has at most :data:`SPARSE` rows, the result is a call. The arguments are the
+          non-zero entries of A, and y.
+        - If A is not zero and has more rows, the result is None.
         """
-        # If ``pattern`` is not 0, the arguments do not include the zero entries of A.
+        # If ``pattern`` is not 0, the zero entries of A are already omitted.
         if self.pattern:
             return None
         size = self.n**2
@@ -174,8 +176,8 @@ class ExponentialAction(VectorFunction):
         # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # For a large matrix, emitted code contains a loop over all entries, because separate sums for the
-        # rows would be long. The loop needs the zero entries, too.
+        # For a large matrix, separate sums for the rows would be long. Emitted code therefore contains a loop
+        # over all entries, and the zero entries remain arguments.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
@@ -208,7 +210,7 @@ class ExponentialAction(VectorFunction):
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # The next line changes ``weight`` from m!/k! to m!/(k - 1)! with m = ``degree``, exactly.
+                # Let m be ``degree``. The next line changes ``weight`` from m!/k! to m!/(k - 1)!, exactly.
                 weight *= k
                 # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
@@ -252,9 +254,9 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # Let A_0 be the matrix of the constant terms, and p = ``ring.order``. If A_0 is nilpotent, A_0^n = 0.
-        # Each summand of A^(n (p + 1)) then contains the factor A_0^n = 0 or a power of h above h^p, which is
-        # truncated. The loop therefore finds a zero term.
+        # Let A = A_0 + H, where A_0 contains the constant terms, and let p be ``ring.order``. The power
+        # A^(n (p + 1)) is a sum of products of A_0 and H. Products with more than p factors H are truncated.
+        # All other products contain A_0^n, which is 0 if A_0 is nilpotent. Hence the loop finds a zero term.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
