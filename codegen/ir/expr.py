@@ -1,7 +1,7 @@
 """Scalar expressions. An expression is an immutable node of a :class:`Space`.
 
-In a space, equal expressions are the same object. Nodes are numbered in the order of their creation, and each
-compilation uses a new space. Therefore the emitted text depends only on the input of the compilation.
+In a space, equal expressions are the same object. Nodes are numbered in the order of their creation. Each
+compilation uses a new space, so earlier compilations do not influence the emitted text.
 
 Local rules simplify new nodes. For example, x - x becomes 0. A nested sum (a + b) + c is not replaced by one
 sum of three terms. Other expressions can thus share the node a + b.
@@ -147,7 +147,7 @@ class Space:
         """Return ``value`` as a node of this space. A number becomes a constant node."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Nodes of different spaces may have the same number.
+                # A node number identifies a node only within one space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -204,8 +204,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Here a = -x. The difference -x - b is replaced by -(x + b). If this node is added to a node y,
-            # the sum becomes y - (x + b), without a negation.
+            # Here a = -x. The difference -x - b is replaced by -(x + b). A later sum y + (-(x + b)) becomes
+            # y - (x + b), without a negation.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -317,10 +317,9 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
-        # An inner call ``choose(x, 1, -1)`` is 1 if x > 0, and -1 otherwise.
         test, *values = args[0].args
-        # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``, because the value of the inner call
-        # is positive exactly where x is positive.
+        # ``choose(x, 1, -1)`` is positive if and only if x is positive. Therefore
+        # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
@@ -389,7 +388,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     ``values`` contains the value of each symbol. If the scalars of ``domain`` are expressions, each symbol is
     replaced by an expression.
     """
-    # ``roots`` may be an iterator, which can be read only once. The list can be read twice.
+    # ``roots`` is used twice below, but an iterator can be read only once.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
     # All results of a call of a vector function are computed together. A key of ``vectors`` consists of the

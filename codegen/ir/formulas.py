@@ -19,8 +19,8 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for the values of functions of time. The table of ``domain`` is
-        # used here, so the value of a function at a time t has only one symbol.
+        # ``samples`` contains the symbols for the values of functions of time. Both domains share this table,
+        # so each value has the same symbol in both domains.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -32,10 +32,10 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""A table from names of functions to arguments. The value of the function at this argument is finite.
+"""A table from names of functions to safe arguments. At its safe argument, a function is finite.
 
-All branches of a Piecewise formula are evaluated. In a branch that is not selected, the argument in this
-table replaces the argument of the function. The function might otherwise be infinite or undefined.
+All branches of a Piecewise formula are evaluated. In a branch that is not selected, the safe argument
+replaces the argument of the function. Otherwise the function could be infinite or undefined.
 """
 
 
@@ -103,8 +103,8 @@ class _Reader:
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # atan2(y, x) is not differentiable at x = y = 0. In a branch of a Piecewise formula that is not
-            # selected, 1 replaces x.
+            # atan2(y, x) is not differentiable at x = y = 0. If a Piecewise formula does not select the
+            # current branch, 1 replaces x.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
@@ -139,10 +139,10 @@ class _Reader:
 
         If the branch is selected, the value of the expression is x. Otherwise the value is ``safe``.
 
-        If x is constant, the result is x. Outside of Piecewise formulas, the result is also x.
+        The result is x itself if x is constant or ``guard`` is None.
         """
         # All branches are evaluated. In a branch that is not selected, a root, a quotient or a derivative
-        # could be a NaN. At the argument ``safe`` it is finite.
+        # could be a NaN at x. At the argument ``safe`` the root, the quotient and the derivative are finite.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
@@ -178,8 +178,8 @@ class _Reader:
                 where=self.where,
                 expected="a last branch (formula, True)",
             )
-        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is the condition that the
-        # outer branch is selected, and that all earlier conditions of ``e`` are false.
+        # ``e`` may be part of a branch of an outer Piecewise formula. ``rest`` is true if the outer branch
+        # is selected and all earlier conditions of ``e`` are false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
@@ -192,8 +192,8 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch. The loop ends with the first condition, so
-        # this condition is the outermost choice.
+        # In sympy, the first true condition selects the branch. The outermost choice is tested first, so the
+        # loop adds the choices in reverse order.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -224,11 +224,11 @@ class _Reader:
             # An exponent such as 0.5 is converted to the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # A negative power is infinite for the base 0. In a branch of a Piecewise formula that is not
-            # selected, 1 replaces the base.
+            # A negative power is infinite for the base 0. If a Piecewise formula does not select the current
+            # branch, 1 replaces the base.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # In a branch of a Piecewise formula that is not selected, 1 replaces the base. The root and its
+            # If a Piecewise formula does not select the current branch, 1 replaces the base. The root and its
             # derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)

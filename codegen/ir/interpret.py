@@ -54,11 +54,11 @@ def interpret(
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
     - ``solutions`` is a table from unknowns to values. Fixed-point iteration begins at these values. After
       the step the table contains the solutions of all blocks. Composition methods ignore this table.
-    - ``near`` contains one list of scalars for each block. Newton's method begins at these scalars, and
-      fixed-point iteration is not tried. After the step ``near`` contains the solutions.
+    - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
+      used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, the value x of each computed variable is replaced by
-    ``computed(name, x)``. Here ``name`` is the name of the variable.
+    ``domain`` may have a method ``computed``. In this case ``computed(name, x)`` replaces each computed value
+    x, where ``name`` is the name of the variable.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
     block.
@@ -88,8 +88,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # The first list in ``near`` contains the initial values for this block. This list is removed, and
-            # the solution of the block is appended.
+            # ``near`` is a queue. Its first list contains the initial values for this block. This list is
+            # removed, and the solution of the block is appended to ``near``.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -133,12 +133,12 @@ def outward(
 ) -> tuple[Scalar, ...]:
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
-    ``state`` contains the space momentum mu before the step. ``ends`` are two states with the body
-    momentum: the state before the step and the state after the step. Both body momenta are converted to
-    space momenta. The result is mu plus the difference of these space momenta.
+    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
+    step, with the body momentum. Both body momenta are converted to space momenta. The result is mu plus the
+    difference of these space momenta.
 
-    Rounding errors make q slightly non-orthogonal. The resulting errors of the two space momenta nearly
-    cancel in the difference.
+    Rounding errors make the group element q of a state slightly non-orthogonal. The resulting errors of the
+    two space momenta nearly cancel in the difference.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -254,12 +254,12 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # The iteration has converged if each change is at most ``increment``, which is about the square
-            # root of the rounding unit. One further Newton step then approximately squares the error.
+            # ``increment`` is about the square root of the rounding unit. If each change is at most
+            # ``increment``, the iteration has converged. One further Newton step about squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # This call writes the values at the solution to ``env``.
+            # This call writes the solution, and the values computed from it, to ``env``.
             images(now)
             if sharp:
                 return now
@@ -268,8 +268,9 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return a message: the iteration of ``block`` did not converge. ``change`` is the last change of the
-    unknowns.
+    """Return the error message for an iteration of ``block`` that did not converge.
+
+    ``change`` is the last change of the unknowns.
     """
     # The message shows two digits of the change, so a double is precise enough.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)

@@ -116,7 +116,8 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Only inner vertices are eliminated. They are in both ``before`` and ``after``.
+                # Only inner vertices are eliminated. ``before`` does not contain
+                # the variables, and ``after`` does not contain the results.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 

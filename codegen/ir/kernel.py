@@ -1,10 +1,11 @@
-"""Kernels: the statements of one step. C or Python code is printed from a kernel.
+"""Kernels. A kernel contains the statements of one step. The printers translate it to C or Python code.
 
-The statements are scalar assignments and loops that solve equations. Each name is assigned only once. A
-:class:`Loop` solves equations u = g(u) for its unknowns u. The values g(u) are called images. Each sweep
+The statements are scalar assignments and loops. A kernel has no conditional statements. Each name is the
+target of only one assignment.
+
+A :class:`Loop` solves equations u = g(u) for its unknowns u. The values g(u) are called images. Each sweep
 (iteration) of a loop replaces the unknowns by their images, or corrects the unknowns by Newton's method. A
 :class:`Start` sets the first values of the unknowns of all loops.
-Apart from the loops, a kernel has no branches that depend on data.
 """
 
 from __future__ import annotations
@@ -22,15 +23,16 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The name of the symbol for the duration of the last flow of a step, in splitting methods.
+"""In a splitting method, the name of the symbol for the duration of the last flow of a step.
 
 In a run of several steps, the last flow of each step is joined with the first flow of the next step. The name
 contains a dot, so it differs from every name that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of the symbol for the total duration of several steps, in splitting methods. Flows that are
-applied only once for several steps have this duration (:class:`Deferred`).
+"""In a splitting method, the name of the symbol for the total duration of a run of several steps.
+
+A deferred flow is applied only once in a run. Its duration is the total duration (:class:`Deferred`).
 """
 
 LONGEST = 256
@@ -47,17 +49,17 @@ SLOWEST = 2.0**-12
 """The smallest contraction factor that the stopping rule uses.
 
 The contraction factor is the quotient of two successive changes of the unknowns. If the changes are as small
-as rounding errors, the quotient may be tiny by accident. A smaller quotient is replaced by this bound.
+as rounding errors, the quotient may be tiny by accident. This constant replaces every smaller quotient.
 """
 
 UNIT = 2.0**-53
 """The unit roundoff of doubles, that is, the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A bound in the stopping rule (:mod:`codegen.run.stopping`).
+"""A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`).
 
-The rule compares h times the change of the unknowns with this fraction of the largest number in each part of
-the state. A smaller product is a rounding error.
+The stopping rule computes h times the change of the unknowns. If this product is below ``LOST`` times the
+largest number in each part of the state, the rule treats the product as a rounding error.
 """
 
 VARIATION = "variation"
@@ -79,17 +81,19 @@ class Let:
 
 @dataclass(frozen=True)
 class Newton:
-    """Newton's method for the equations of a loop. ``matrix`` is the matrix of the method, and ``body``
-    computes its entries. For equations u = g(u), the matrix is 1 - g'(u).
+    """Newton's method for the equations of a loop (:mod:`codegen.run.sweeps`).
 
-    - ``leading`` is true for simplified Newton iterations. The matrix is then expanded to first order in h,
-      and it is computed and inverted in each step. If ``leading`` is false, the matrix is reused in later
-      sweeps and steps (:mod:`codegen.run.sweeps`).
-    - ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals`` is true if the loop solves equations r(u) = 0. The ``images`` of the loop are then the
-      residuals r(u), and the matrix is -r'(u), expanded to first order in h. The inverse matrix is used for
+    ``body`` computes the entries of ``matrix``. The method has three forms:
+    - Newton: the equations are u = g(u), and the matrix is 1 - g'(u). Later sweeps and steps use
+      the same matrix.
+    - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
+      to first order in h. Each step computes and inverts the matrix.
+    - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
+      residuals r(u). The matrix is -r'(u), expanded to first order in h. Its inverse is used for
       :attr:`period` steps.
-    - ``changes`` are the names of the variables for the changes of the unknowns in the latest sweep.
+
+    ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix. ``changes`` are the names
+    of the variables for the changes of the unknowns in a sweep.
     """
 
     body: tuple[Let, ...]
@@ -105,21 +109,22 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which an inverse matrix is used, or 0 if this number is not fixed.
+        """The number of steps that use the same inverse matrix, or 0 if no such number is given.
 
         With a longer period, fewer inverses are computed. However, an older inverse is less accurate, so a
         step needs more sweeps.
         """
-        # The inverse of an n x n matrix costs O(n^3) operations. If it is used for about n/2 steps, the cost
-        # per step is O(n^2).
+        # An inverse costs O(n^3) operations, where n is the number of unknowns. Shared by n/2 steps, the
+        # inverse costs O(n^2) operations per step. A product with a vector costs O(n^2) operations, too.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that solves the equations u = g(u) by iteration, where u are the unknowns and g(u) the images.
+    """A loop that solves the equations u = g(u) by iteration.
 
-    ``body`` computes the images. The loop ends when the changes of the unknowns are at rounding level.
+    The values u are called unknowns, and the values g(u) are called images. ``body`` computes the images. The
+    loop ends when the changes of the unknowns are at rounding level.
 
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. ``starts`` is empty if a :class:`Start` computes the first values.
@@ -131,8 +136,8 @@ class Loop:
     The stopping rule (:mod:`codegen.run.stopping`) uses these values:
     - ``tolerance``: if the change is below ``tolerance`` times the largest unknown and no longer decreases,
       the loop ends.
-    - ``close``: if the change is below ``close`` times the largest unknown and the rate of convergence
-      predicts a small error, the loop ends.
+    - ``close``: the loop also ends if the change is below ``close`` times the largest unknown, and the
+      predicted next change is at rounding level.
     - ``limit`` is the largest number of sweeps.
     - ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``. The loop may then
       end at a larger change.
@@ -143,7 +148,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # The rounding errors of many operations add up in a sweep, so the tolerance is far above 2^-53.
+    # The tolerance is larger than the unit roundoff 2^-53, because a sweep makes many rounding errors.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -158,19 +163,19 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """A bound of the change of the unknowns, relative to the largest unknown (see :class:`Loop`).
+        """The bound ``close`` of the stopping rule (:class:`Loop`).
 
-        Statements after the loop may use values of ``body``. These values were computed before the last
-        change of the unknowns, so their error is about h L times the last change. Here h L is the Lipschitz
-        constant of the images g(u).
+        Let h L be the Lipschitz constant of the images g(u). Statements after the loop may use values of
+        ``body``. These values do not contain the last change of the unknowns. Their error is therefore about
+        h L times the last change.
         """
-        # No value of ``body`` is used after the loop. The error of the unknowns is smaller than their last
-        # change, so a larger change is accepted.
+        # Only the unknowns are used after the loop. Their error is smaller than the last change, so the
+        # bound of the change is larger than ``tolerance``.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # With a first-order matrix, each sweep multiplies the change by about (h L)^2, so the loop converges
-        # only for small h L. Other loops may converge for larger h L. The values of ``body`` then have larger
-        # errors, so the bound is smaller.
+        # A matrix to first order in h multiplies the change by about (h L)^2 in each sweep. Such a loop
+        # converges only for small h L. Other loops may also converge for larger h L. For larger h L the
+        # values of ``body`` have larger errors, so the bound of these loops is smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -179,10 +184,10 @@ class Loop:
 class Start:
     """The statement that sets the first values of the unknowns of all loops.
 
-    If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
-    Otherwise the first values are extrapolated from earlier solutions. Let u1 be the solution of the last
+    ``body`` computes ``values``. If no solution is stored, the first values are ``values``. Otherwise the
+    first values are extrapolated from at most ``depth`` stored solutions. Let u1 be the solution of the last
     step, u2 the solution of the step before it, and so on. The extrapolations of degree 0, 1 and 2 are u1,
-    2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth`` solutions are stored.
+    2 u1 - u2 and 3 u1 - 3 u2 + u3.
 
     The degree d is adapted to the sizes of the backward differences u1 - u2 (order 1), u1 - 2 u2 + u3
     (order 2), and so on. If the difference of order d + 1 is smaller than the difference of order d, then d
@@ -190,10 +195,10 @@ class Start:
     of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except
     u1 are discarded.
 
-    If a step fails, it is repeated by continuation in h. The step size is halved until the loops converge.
-    It then grows to h, and each solution provides the first values for the next larger step size. After a
-    failure the step size grows by a smaller factor. The continuation fails if this factor is at most
-    1 + ``SHORTEST``, or after ``TRIES`` step sizes.
+    A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then
+    the step size grows to h. Each solution provides the first values for the next larger step size. A failure
+    reduces the growth factor. The continuation fails if the growth factor is at most 1 + ``SHORTEST``. It
+    also fails after ``TRIES`` attempts.
     """
 
     unknowns: tuple[str, ...]
@@ -201,13 +206,13 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The error of the first value u1 is the change of the unknowns in the step. If the error of an
-    # extrapolation is more than half of this change, the extrapolation is hardly better than u1.
+    # Without extrapolation, the first value is u1. Its error is the change of the unknowns in the step. An
+    # extrapolation is useful only if its error is much smaller than this change.
     ROUGH: ClassVar[float] = 0.5
-    # The continuation needs far fewer step sizes: after 100 halvings the step size would be 2^-100 h.
+    # A continuation that succeeds needs far fewer attempts.
     TRIES: ClassVar[int] = 100
-    # The step size grows by a factor of at most 4. A failure replaces the factor by its square root. After
-    # nine successive failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation ends.
+    # The growth factor is at most 4. While h grows, each failure replaces the factor by its square root.
+    # After nine successive failures the factor is at most 4^(1/2^9), which is smaller than 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -226,11 +231,11 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The deferred flows of a splitting method. A run of several steps applies each deferred flow only once,
-    before the first step or after the last step.
+    """The deferred flows of a splitting method.
 
-    A run calls ``begin`` once, then the kernel of the step once for each step, and then ``finish`` once. A
-    single step is a run of one step. A long run is divided into runs of at most :data:`LONGEST` steps.
+    The method computes runs of at most :data:`LONGEST` steps. Each run applies a deferred flow only once,
+    before its first step or after its last step. A run calls ``begin`` once, then the kernel of the step once
+    for each step, and then ``finish`` once.
 
     The symbol :data:`LEAD` is the duration of the last flow of the kernel. In the last step of a run, this
     duration is h times the number ``last``. In all other steps the duration is h times the number ``later``.
@@ -244,7 +249,7 @@ class Deferred:
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """The kernels ``begin`` and ``finish``. Values that are None are omitted."""
+        """The kernels ``begin`` and ``finish``, if they exist."""
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
@@ -253,10 +258,10 @@ class Carried:
     """The conversions between the space momentum mu of the caller and the body momentum m of the steps.
 
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m), where q is the group element in the
-    state. The momentum begins at the index ``first`` of the state.
+    state. ``first`` is the index of the first momentum component in the state.
 
-    A run of several steps converts mu to m at the beginning. Its steps map (q, m) to (q', m'). At the end the
-    run computes the new space momentum mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q and
+    A run of several steps first converts mu to m. The steps map (q, m) to (q', m'). After the last step, the
+    new space momentum is computed: mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q and
     q' slightly non-orthogonal, so both conversions have errors. The errors nearly cancel in the difference.
     """
 
@@ -292,20 +297,21 @@ class Estimate:
 class Expansion:
     """The Taylor polynomial of the solution as a function of time.
 
-    The outputs of the kernel ``coefficients`` are the Taylor coefficients of order 1, then of order 2, and so
-    on to the order ``degree``. If the coordinates of the polynomial differ from the state, ``enter`` computes
-    the coordinates from the state, and ``leave`` computes the new state from the new coordinates. Otherwise
-    ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
-    Taylor coefficients.
+    ``enter`` computes the coordinates of the polynomial from the state. ``leave`` computes the new state from
+    the new coordinates. If the coordinates are the state, ``enter`` and ``leave`` are None. If ``controlled``
+    is true, a run may choose the step size from the Taylor coefficients.
 
-    If ``following`` is given, the coefficients are computed in a loop over the order n
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). The first outputs of ``coefficients`` are then values that
-    are computed once before the loop. The other outputs are the coefficients of order 1.
+    Without ``following``, the outputs of the kernel ``coefficients`` are the Taylor coefficients of order 1,
+    then of order 2, and so on to the order ``degree``.
+
+    With ``following``, a loop over the order n computes the coefficients
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is called once before the loop.
+    Its first outputs are constants of the loop, and its other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    The number of inner sums in the loop is ``sums``. The outputs of the kernel ``following`` are the
-    coefficients a_n of all inner sums, then the coefficients b_n of all inner sums, and then the Taylor
-    coefficients of order n + 1.
+    The loop computes ``sums`` inner sums. The outputs of the kernel ``following`` are the coefficients a_n of
+    all inner sums, then the coefficients b_n of all inner sums, and then the Taylor coefficients of order
+    n + 1.
     """
 
     degree: int
@@ -337,9 +343,9 @@ class Continuous:
 class Observed:
     """The properties of the emitted function that integrates to a given end time.
 
-    This function writes the states at given output times. It also finds the zeros of ``events`` event
-    functions that the caller supplies. The ``extension`` (dense output) computes the states at output times.
-    If ``extension`` is None, steps are shortened to end at the output times.
+    This function writes the states at given output times. It also finds the zeros of event functions that the
+    caller supplies. ``events`` is the number of event functions. The ``extension`` (dense output) computes
+    the states at output times. If ``extension`` is None, steps are shortened to end at the output times.
     """
 
     events: int = 0
@@ -372,10 +378,10 @@ class Kernel:
       state) after the step.
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried`` contains the conversions of the momentum if the kernel uses the body momentum in place of
-      the space momentum.
-    - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of any
-      other method. Step-size control needs ``expansion`` or ``estimate``.
+    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum. It converts
+      between the two momenta.
+    - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of another
+      method. Step-size control needs ``expansion`` or ``estimate``.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 
@@ -433,7 +439,7 @@ class Kernel:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the kernel, in the order of execution."""
-        # The input functions are evaluated before the step, so the times of ``samples`` come first.
+        # The times of ``samples`` are computed before the first statement of ``body``.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -443,7 +449,7 @@ class Kernel:
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
-            # ``statement`` is now a loop.
+            # Only a loop remains.
             yield from (*statement.starts, *statement.images)
             if statement.newton is not None:
                 yield from (let.value for let in statement.newton.body)
@@ -467,9 +473,9 @@ class Kernel:
         """Return those of the ``scalars`` that the step uses, in the order of ``scalars``."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # The deferred flows are separate kernels. Their scalars are added.
+            # ``read`` also contains the scalars in the kernels of the deferred flows.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # A separate kernel computes the Taylor coefficients. Its scalars are added.
+            # ``read`` also contains the scalars in the kernel of the Taylor coefficients.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

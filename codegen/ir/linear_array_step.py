@@ -16,8 +16,9 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials that :meth:`LinearArrayStep.operations` assumes for exponentials. In
-emitted code the degree depends on the norm of the exponent.
+"""The degree of the Taylor polynomials of exponentials in the estimate :meth:`LinearArrayStep.operations`.
+
+In emitted code the degree depends on the norm of the matrix in the exponential.
 """
 
 Letter = tuple[tuple[int, Number], ...]
@@ -48,7 +49,7 @@ class TimeMatrix:
     def offsets(self) -> tuple[int, ...]:
         """The offsets of the diagonals of a banded matrix, sorted by absolute value: 0, -1, 1, -2, 2, ..."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        # The offset -d comes before the offset d > 0.
+        # The pairs (abs(x), x) order offsets with the same absolute value: -d comes before d.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property

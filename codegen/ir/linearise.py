@@ -21,8 +21,9 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The names of the functions that :func:`_called` can expand to first order in h. Piecewise polynomials can
-be expanded, too. They are recognised by their class.
+"""The names of the functions that :func:`_called` can expand to first order in h.
+
+Piecewise polynomials can be expanded, too, but they are not in this set.
 """
 
 Pair = tuple[Expr, Expr]
@@ -80,7 +81,7 @@ class FirstOrder:
         rows = []
         for root in roots:
             slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
-            # ``low`` and ``high`` are the coefficients of 1 and h in a derivative.
+            # A derivative is ``low`` + ``high`` h.
             rows.append([h * high + low for low, high in slopes])
         return rows
 
@@ -94,8 +95,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Every other symbol u has the expansion u + 0 h. The derivative of an unknown with respect to
-            # itself is 1.
+            # A symbol u other than h has the expansion u + 0 h. If u is an unknown, its derivative with
+            # respect to itself is 1.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":

@@ -1,7 +1,7 @@
 """The exponential of a matrix with many digits, and its derivatives, computed with Arb balls.
 
 A ball is a midpoint with an error radius. Arb computes an enclosure of the exponential, so the radii of the
-result bound its error. If they are too large, the computation is repeated with a higher precision.
+result bound its error. If the radii are too large, the computation is repeated with a higher precision.
 
 A matrix and its derivatives form a jet (:mod:`codegen.ir.matrix_exponential`).
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import mpmath
 
 LARGEST_EXPONENT = 40
-"""The exponential is computed if the absolute values of all entries of the matrix are below 2^40."""
+"""If an entry of the matrix has an absolute value of 2^40 or more, :func:`exponential` raises an error."""
 
 MOST_BITS = 2**16
 """The largest working precision in bits."""
@@ -53,15 +53,20 @@ def exponent_of(x: arb) -> int:
 
 
 def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb, ...]:
-    """Return the exponential of a jet: the midpoints of balls.
+    """Return the exponential of a jet, as balls with radius zero.
 
-    ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives, as balls
-    with radius zero. The error of each entry of exp(A) is at most 2^-``bits`` times the largest entry of
-    exp(A). The error of a derivative is at most 2^-``bits`` (e + e^2) times this entry, or 2^-``bits`` times
-    the largest entry of the derivative. Here e is the largest absolute value of a derivative of A.
+    ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives. These
+    entries are balls with radius zero.
 
-    OverflowError is raised if an entry of ``jet`` is not finite, if an entry of A has an absolute value of
-    2^40 or more, or if the error is too large with :data:`MOST_BITS` bits.
+    Let M be the largest absolute value of an entry of exp(A), and e the largest absolute value of an entry of
+    the derivatives of A. The error of each entry of exp(A) is at most 2^-``bits`` M. Let D be a derivative of
+    exp(A), and m the largest absolute value of an entry of D. The error of each entry of D is at most
+    2^-``bits`` times the maximum of m and M (e + e^2).
+
+    OverflowError is raised in three cases:
+    - An entry of ``jet`` is not finite.
+    - An entry of A has an absolute value of 2^40 or more.
+    - A computation with :data:`MOST_BITS` bits is not accurate enough.
     """
     size = n * n
     if not all(x.is_finite() for x in jet) or any(exponent_of(x) > LARGEST_EXPONENT for x in jet[:size]):

@@ -3,9 +3,9 @@ numbers with many digits, or power series.
 
 Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
 exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l contains l symbols
-d_0, ..., d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is
-the product of the symbols d_k for which bit k of m is set. The matrices A_m are stored one after the other,
-and each of them row by row.
+d_0, ..., d_(l-1) with squares zero. It is the sum of the terms A_m e_m for m = 0, ..., 2^l - 1, where A_m is
+a matrix and e_m is a product of symbols. The symbol d_k is a factor of e_m if bit k of the number m is 1. The
+matrices A_0, A_1, ... are stored in this order, and each matrix is stored row by row.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
 The matrix is divided by 2^s, so that its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
@@ -93,7 +93,8 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     ``norm`` is the norm of the matrix before scaling.
     """
     scale, squarings = 1.0, 0
-    # Each squaring about doubles the relative error. After 53 squarings no binary digit is correct.
+    # Each squaring about doubles the relative error, which is at least 2^-53. Therefore no binary digit is
+    # correct after 53 squarings.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -173,7 +174,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     logarithmic norm). The result is the exponential of ``scale`` times this bound. For a skew-symmetric
     matrix the result is 1.
     """
-    # The largest eigenvalue may be negative, so the diagonal entries are used with their signs.
+    # The bound of the largest eigenvalue may be negative, so the diagonal entries keep their signs.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -191,13 +192,15 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
     """Return the jet that results from ``squarings`` squarings of the jet ``total``.
 
-    If the error bound of the first matrix is too large (:data:`LEAST_DIGITS`), all entries of the result are
-    NaN. If a matrix E has the error e, the error of its computed square is at most about
-    2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and |E| is the spectral norm. ``growth`` is a bound of
-    the spectral norm of the first matrix of ``total``.
+    ``growth`` is a bound of the spectral norm of the first matrix of ``total``. If the error bound of the
+    squared first matrix is too large (:data:`LEAST_DIGITS`), all entries of the result are NaN.
+
+    Let E be an n x n matrix with the spectral norm |E| and the error e, and let u be the unit roundoff. The
+    error of the computed square of E is at most about 2 |E| e + n^2 u |E|^2.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` is a bound of the error of ``total``. Its first value is the bound before the squarings.
+    # ``error`` is a bound of the error of the first matrix of ``total``. Here it is the error before the
+    # squarings.
     error = (n + 8) * unit * n
     for _ in range(squarings):
         # ``growth`` and the Frobenius norm are bounds of the spectral norm. The smaller bound is used.
@@ -225,8 +228,9 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exact exponential of the jet ``a``, a matrix of power series with its derivatives.
 
-    The exponential must be a finite sum. The constant terms of the first matrix of the jet must therefore
-    form a nilpotent matrix. If the sum has more than ``longest`` terms, ArithmeticError is raised.
+    The result is exact, because the exponential is a finite sum. The sum is finite if the constant terms of
+    the first matrix of the jet form a nilpotent matrix. If the sum has more than ``longest`` terms,
+    ArithmeticError is raised.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total

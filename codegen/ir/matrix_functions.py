@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""If the sum exp(A) = 1 + A + A^2/2 + ... has at most this number of non-zero terms, scalar formulas replace
-the call of the exponential. The sum is finite if a power of the matrix A is zero.
+"""The largest number of non-zero terms of an exponential that is computed by scalar formulas.
+
+The sum exp(A) = 1 + A + A^2/2 + ... is finite if a power of the matrix A is zero.
 """
 
 
@@ -44,7 +45,7 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """Approximate numbers of additions and multiplications in one call, without squarings."""
+        """Approximate numbers of additions and multiplications in one call. Squarings are not counted."""
         # The Taylor polynomial is assumed to have degree 12, so it requires five products of jets. A product
         # of two jets consists of 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
@@ -53,7 +54,7 @@ class MatrixExponential(VectorFunction):
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``.
 
-        The exponential with ``level`` + 1 computes them. They are the second half of its results.
+        The derivatives of the results are the second half of the exponential with ``level`` + 1.
         """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -66,12 +67,12 @@ class MatrixExponential(VectorFunction):
 
         A is the jet ``args`` (a matrix with its derivatives). The zeros in A determine the number of terms.
         """
-        # ``pattern`` contains 1 for each entry of A that may be non-zero, and 0 for each other entry. If an
-        # entry of a power of ``pattern`` is zero, the same entry of this power of A is zero. The reason is
-        # that ``pattern`` has no negative entries, so nothing cancels in its powers.
+        # ``pattern`` contains 0 for each entry of A that is always zero, and 1 for each other entry. If entry
+        # (i, j) of the k-th power of ``pattern`` is zero, entry (i, j) of A^k is also zero. The entries of
+        # ``pattern`` are not negative, so terms cannot cancel.
         pattern = power = [int(not x.is_zero) for x in args]
-        # If the first matrix of the jet is nilpotent, the sum is finite. The derivatives in the jet may be
-        # arbitrary, because a product of more than ``level`` derivatives is zero.
+        # If the first matrix of the jet is nilpotent, the sum is finite for all derivatives in the jet. The
+        # reason is that a product with more than ``level`` derivatives as factors is zero.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that must be zero.
@@ -107,10 +108,10 @@ class MatrixExponential(VectorFunction):
         nilpotent.
         """
         # Let C be the matrix of the constant terms of A. It is nilpotent, so C^n = 0. Each other term of the
-        # jet contains h or one of the ``level`` symbols d_k of :mod:`codegen.ir.matrix_exponential`, with
-        # d_k^2 = 0. A non-zero product of terms thus has at most ``ring.order`` factors with h, at most
-        # ``level`` factors with a d_k, and fewer than n successive factors C. A product of ``longest`` terms
-        # is longer, so it is zero.
+        # jet contains h or one of the ``level`` symbols d_k (:mod:`codegen.ir.matrix_exponential`).
+        # Let a product of terms be non-zero. At most ``ring.order`` factors contain h. At most ``level``
+        # factors contain a d_k, because d_k^2 = 0. Fewer than n successive factors are C. The number of
+        # factors is therefore less than ``longest``.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -165,8 +166,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
-            # A pivot must have a non-zero constant term, because only such a power series has an inverse. The
-            # valuation (the lowest exponent of h) of a pivot is therefore 0.
+            # A power series has an inverse only if its constant term is not zero. In this case its valuation
+            # (the lowest exponent of h) is 0. A pivot needs an inverse.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -178,11 +179,11 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
+    """Return True if the zeros in ``pattern`` make every n x n matrix nilpotent.
 
-    Only the zeros are given. The other entries of the matrix are arbitrary. The criterion uses a graph with
-    the vertices 0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j. The function
-    returns True if this graph has no cycle.
+    A matrix is zero wherever ``pattern`` is zero, and its other entries are arbitrary. The criterion uses a
+    graph with the vertices 0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j.
+    The function returns True if this graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
