@@ -2,12 +2,11 @@
 
 - ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. If x is NaN, the value is NaN. Every
   condition in a formula becomes a call of this function.
-- ``fabs`` is the absolute value.
-- A :class:`codegen.ir.table.PiecewisePolynomial` selects one of its polynomials.
+- ``fabs(x)`` is the absolute value of x.
+- A :class:`codegen.ir.table.PiecewisePolynomial` at x selects the polynomial of the interval that contains x.
 
-The selected formula changes at certain values of the argument, for example at x = 0 in ``choose``. The
-argument may be a power series in h. If the constant term of the series is one of these values, :class:`Kink`
-is raised.
+The selected formula changes at certain values of x, for example at x = 0 in ``choose``. If x is a power
+series in h, and its constant term is one of these values, :class:`Kink` is raised.
 """
 
 from __future__ import annotations
@@ -26,10 +25,7 @@ SELECTING = (CHOOSE, ABSOLUTE)
 
 
 class Kink(ArithmeticError):
-    """Raised if the selected formula changes at the constant term of a power series.
-
-    The power series in h is the argument of the selecting function.
-    """
+    """Raised if the argument is a power series, and the selected formula changes at its constant term."""
 
 
 def selects(function: str) -> bool:

@@ -87,7 +87,7 @@ class Corrected(Operation):
 class Wedge(Operation):
     """The vector (p f - q gamma)/s for a covector gamma, a vector f and numbers p, q and s.
 
-    For s = 0 the result is zero. This vector is the value of a bivector (:mod:`codegen.kernel.site_sums`).
+    The result is the value of a bivector (:mod:`codegen.kernel.site_sums`). For s = 0 it is zero.
     """
 
     name = "wedge"

@@ -22,8 +22,8 @@ for each quantity and one column for each site.
 """
 
 EXISTS = "exists"
-"""The name of an array of flags. Row k contains 1 for each site that has a neighbour with the index k, and 0
-for all other sites. The array is not stored in memory. Each flag is computed from the position of its site.
+"""The name of an array of flags. The flag in row k is 1 if neighbour k of the site exists, and 0 otherwise.
+The flags are not stored in memory, but computed from the position of the site.
 """
 
 OWN = -1
@@ -65,11 +65,11 @@ class Sweep:
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. It has one output for each load in
-      :attr:`read_outside`. If the neighbour does not exist, the output replaces the number.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. Output k replaces the number of load k
+      in :attr:`read_outside` if the neighbour does not exist.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
-      single sites it is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The second
-      half of ``stores`` contains the rows for the second site.
+      single sites, ``axis`` is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The
+      second half of ``stores`` contains the rows for the second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
     - ``measured`` is empty, or contains two rows for the stopping test. For each site, the first row contains
@@ -115,11 +115,11 @@ class Sweep:
 class SiteNewton:
     """The matrix of Newton's method for implicit equations u = g(u) on a chain of sites.
 
-    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. It is
-    block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and columns: the
-    derivatives with respect to the unknowns of the left neighbour, of the site, and of the right neighbour.
-    ``loads`` are the numbers that the kernel reads. ``exists[k]`` is the name of a symbol. The symbol is 1 if
-    neighbour k exists, and 0 otherwise.
+    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. For each
+    site, ``kernel`` computes three blocks of ``size`` rows and columns: the derivatives with respect to the
+    unknowns of the left neighbour, of the site, and of the right neighbour. Hence the matrix of an open chain
+    is block-tridiagonal. ``loads`` are the numbers that the kernel reads. The symbol with the name
+    ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
 
     ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
 
@@ -149,8 +149,7 @@ class SiteNewton:
         # In a periodic chain the last site is a neighbour of the first site. Hence the matrix of the chain
         # is not block-tridiagonal.
         if periodic:
-            # The linear equations are solved with n right-hand sides. These are the n columns of the matrix
-            # that multiply the unknowns of the last site.
+            # The right-hand sides are the n columns of the matrix for the unknowns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -203,7 +202,7 @@ class SiteFlow:
 
     - ``sweep`` is the index of the sweep that computes the flow.
     - ``duration`` is the duration of the flow, divided by h.
-    - ``elapsed`` gives the time t + ``elapsed`` * h at which a flow that depends on time is evaluated.
+    - A flow that depends on time is evaluated at the time t + ``elapsed`` * h.
     - ``colour`` is the parity (0 or 1) of the first site of each pair in a sweep over pairs of sites.
     """
 
@@ -240,7 +239,7 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace. A state occupies ``size`` rows, other values ``rows`` rows."""
+        """The number of rows of the workspace, including ``size`` rows for a state."""
         return self.rows + self.size
 
     @property
@@ -280,8 +279,9 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The memory traffic of a step without the iterations for implicit equations. The value is the pair
-        (numbers read, numbers written) for each site.
+        """The memory traffic of a step without the iterations for implicit equations.
+
+        It is the pair (numbers read, numbers written) for each site.
         """
         # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
@@ -297,7 +297,7 @@ class SiteStep:
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
-        """Return the sum of the numbers that a step reads and writes in memory for each site.
+        """Return how many numbers a step reads and writes in memory for each site.
 
         ``sweeps`` contains the number of iterations for each block of implicit equations.
         """
@@ -316,7 +316,7 @@ class SiteStep:
                 names = ", ".join(name for name, _ in sweep.sums)
                 lines.append(f"  computes the sums over all sites: {names}")
         for block in self.blocks:
-            # Sweep k is printed as loop k + 1.
+            # In the text, the loops are numbered from 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             # If the block consists of a single loop, the sentence is in the singular.
             if block.first == block.last:
@@ -346,8 +346,7 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     If a sweep reads a number several times, the number is counted once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, separate loops evaluate the stopping test and the sums. The stopping test reads the rows
-    # ``measured``. Each sum reads the row with its terms.
+    # After a sweep, further loops read the rows ``measured`` for the stopping test, and one row for each sum.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

@@ -3,8 +3,7 @@
 A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). It
 selects one of several formulas. The *side* of a selection is the index of the selected formula. For
 ``choose`` and ``fabs`` the side is 1 if the first argument is positive, and 0 otherwise. For a piecewise
-polynomial the side is the index of an interval. If the sides are fixed, the field has formulas
-without selections.
+polynomial the side is the index of the interval that contains the argument.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ Sides = tuple[int, ...]
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return all selections in the expressions ``roots``.
 
-    If a selection contains other selections in its arguments, these come first.
+    The selections in the arguments of a selection precede it.
     """
     # ``walk`` yields the arguments of a node before the node.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
@@ -35,9 +34,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     """Replace each selection in ``roots`` by one of its formulas.
 
     ``nodes`` are the selections. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The
-    result is a pair of lists. The first list contains the expressions without selections. The second list
-    contains expressions called margins. At a point where all margins are positive, the new expressions have
-    the same values as ``roots``.
+    result is a pair of lists: the new expressions, and expressions called margins. Where all margins are
+    positive, the new expressions have the same values as ``roots``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -81,8 +79,8 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # Each tuple contains the formulas for x <= 0 and for x > 0, in this order. ``choose(x, a, b)`` equals
-    # ``a`` for x > 0, so the tuple for ``choose`` is (b, a).
+    # Each tuple contains the formula for x <= 0, then the formula for x > 0. ``choose(x, a, b)`` equals ``a``
+    # for x > 0, so its tuple is (b, a).
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 

@@ -1,7 +1,7 @@
-"""Piecewise polynomials of one variable. A user's formula defines them by a table of numbers.
+"""Piecewise polynomials of one variable. The user defines a piecewise polynomial by a table of numbers.
 
-In an expression, a piecewise polynomial is a function like ``sin``. Its name contains a digest of the
-coefficients.
+In an expression, a piecewise polynomial is called like the function ``sin``. The name of the function
+contains a hash of the coefficients.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
-    # A call of a vector function has several results. ``together`` contains their tangents for each call.
+    # For each call of a vector function, ``together`` contains the tangents of all results.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
         # The table ``known`` contains the tangents that are not zero. A symbol without a seed is constant.
@@ -41,20 +41,19 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         if result is not None:
             function, index = result
             key = function.name, tuple(a.id for a in node.args)
-            # ``function.tangent`` returns the tangents of all results of the function.
             if key not in together:
                 rates = [known.get(a.id, node.space.zero) for a in node.args]
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. A call with constant arguments
-        # raises no error, because the loop skips it above.
+        # ``partials`` raises an error for a function without a derivative. Calls with constant arguments do
+        # not reach this line.
         slopes = partials(node)
         total = node.space.zero
         # By the chain rule, the tangent is the sum of partial derivatives times tangents of the arguments.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # ``total`` is zero if the terms of the sum cancel. The node then gets no entry in ``known``.
+        # If the terms of the sum cancel, ``total`` is zero, and the node gets no entry in ``known``.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

@@ -41,7 +41,7 @@ coefficient n of the time.
 """
 
 PROBED = 3
-"""A series is treated as constant in time if coefficient n is zero in all states for 0 < n < ``PROBED``."""
+"""A series is treated as constant in time if its coefficients 1, ..., ``PROBED`` - 1 are identically zero."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # ``extend`` computes all coefficients that the method ``constant`` needs. ``start`` keeps coefficient 1.
+    # ``extend`` computes the coefficients that the method ``constant`` reads. ``start`` contains only
+    # coefficient 1.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -140,7 +141,7 @@ class _Loop:
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # Coefficient n of the time is 1 for n = 1, and 0 for n > 1. ``LINEAR`` is the name of its symbol.
+        # The symbol ``LINEAR`` is coefficient n of the time: 1 for n = 1, and 0 for n > 1.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -163,17 +164,16 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Return True if a series is treated as constant in time. The test uses only the coefficients n with
-        0 < n < :data:`PROBED`.
-        """
-        # None represents a coefficient that is zero for all states.
+        """Return True if a series is treated as constant in time (:data:`PROBED`)."""
+        # None represents a coefficient that is identically zero.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Add ``x`` to ``first``, and return the symbol for ``x``. A constant is returned unchanged."""
+        """Return a symbol for the value of ``x``, which is computed before the loop. A number is returned
+        unchanged.
+        """
         if x.op == "const":
             return x
-        # The name of the symbol contains the index of ``x`` in ``first``.
         if x.id not in self.positions:
             self.positions[x.id] = len(self.first)
             self.first.append(x)
@@ -192,8 +192,7 @@ class _Loop:
         """Return coefficient n of the product of the series a and b."""
         x, y = self.known[id(a)], self.known[id(b)]
         if x is None or y is None:
-            # If one series is constant, coefficient n of the product is the constant times coefficient n of
-            # the other series.
+            # If one factor is a constant c, the coefficients of the other factor are multiplied by c.
             constant, other = (a, y) if x is None else (b, x)
             return self.value(constant.term(0)) * _known(other)
         # The inner sum lacks the terms j = 0 and j = n, which are a_0 b_n and a_n b_0.
@@ -201,7 +200,7 @@ class _Loop:
 
     def beyond(self, a: Series, b: Series) -> Expr:
         """Return the sum of a_j b_{n-j} over 0 < j <= n."""
-        # The last term is a_n b_0. The other terms are the inner sum of a and b.
+        # The term for j = n is a_n b_0. The terms for 0 < j < n are the inner sum of a and b.
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -211,7 +210,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
-                    # If an operand is constant, its coefficient n is zero, and its entry is None.
+                    # If an operand is constant in time, its coefficient n is zero.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -244,9 +243,8 @@ class _Loop:
                 # 0 < j < n. ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # In the recurrence of p = a^e, the product a_j p_{n-j} has the factor (e j - (n - j))/n. This
-                # factor is (e + 1) j/n - 1. Hence the sum is (e + 1)/n times the sum of j a_j p_{n-j}, minus
-                # the sum of a_j p_{n-j}. Coefficient j of ``slope`` is j a_j.
+                # For p = a^e, a_0 p_n is the sum of ((e + 1) j/n - 1) a_j p_{n-j} over 0 < j <= n. The two
+                # parts of the factor give two sums. Coefficient j of ``slope`` is j a_j.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -282,7 +280,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the operands whose coefficient n is needed for coefficient n of ``series``."""
+    """Return the series whose coefficient n occurs in the formula for coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

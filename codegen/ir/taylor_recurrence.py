@@ -3,7 +3,7 @@
 Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). The coefficients of
 y follow from the coefficients of F in the order of their index. Each product of two series is a convolution,
 which is expensive. Therefore a product or quotient of powers of the same expression is rewritten as one
-power. For example, x sqrt(x) becomes x^(3/2). An odd power of a root also becomes one power.
+power. For example, x sqrt(x) and sqrt(x)^3 become x^(3/2).
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
-        # The node is c x^e, and ``base`` is x. The series of the node is built from the series of x.
+        # If the node was rewritten as c x^e, its series is built from the series of ``base`` = x.
         if base is not node:
             return (base,)
         if node.op == "div":
@@ -116,8 +116,8 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # The node is an integer power of c x^e. For e = 1 its series needs only products, so the node
-                # is not rewritten. An example with another e is sqrt(x)^3, which becomes x^(3/2).
+                # The node is an integer power of c x^e. For e = 1 it is not rewritten, because products are
+                # sufficient. For e = 1/2, for example, sqrt(x)^3 becomes x^(3/2).
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -125,15 +125,14 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
-                # The node is the product or quotient of c x^e and d y^f. It becomes one power if x and y are
-                # the same expression. For e = f = 1 it is not rewritten.
+                # The node is the product or quotient of c x^e and d y^f. If x and y differ, or if e = f = 1,
+                # the node is not rewritten.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # For the exponents 0, 2, 3, ... the series needs no recurrence for powers. Such a node is not
-        # rewritten.
+        # If the exponent is 0, 2, 3, ..., the node is not rewritten, because products are sufficient.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -195,7 +194,7 @@ class _Builder:
         """
         if exponent == 1:
             return a
-        # The series of a power is built once. The next call with the same key returns the same series.
+        # Each power is built only once, and stored in ``shared``.
         key = "power", base.id, exponent
         if key not in self.shared:
             if exponent == Fraction(1, 2):
@@ -282,9 +281,9 @@ class Recurrence:
     """Computes the power series in s of the solution y(t + s * ``scale``) of a differential equation.
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
-    - ``roots`` are the expressions of the derivatives of the coordinates. If there are fewer derivatives than
-      coordinates, the derivatives belong to the first coordinates. The caller must then compute the
-      coefficients of the other coordinates, and must use :meth:`append` in place of :meth:`extend`.
+    - ``roots`` are the expressions of the derivatives of the coordinates. If there are only m derivatives,
+      they are the derivatives of the first m coordinates. The caller must then compute the coefficients of
+      the other coordinates, and must use :meth:`append` in place of :meth:`extend`.
     - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
@@ -311,7 +310,7 @@ class Recurrence:
     def extend(self, degree: int) -> list[list[Coefficient]]:
         """Return the coefficients 0, ..., degree of each coordinate.
 
-        A coefficient that is zero for all states is represented by None.
+        A coefficient that is identically zero is represented by None.
         """
         # All coordinates have the same number of known coefficients. This number is read from the first
         # coordinate.

@@ -46,7 +46,7 @@ class Series(ABC):
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n of this series. All missing coefficients up to n are computed."""
-        # A recurrence uses all lower coefficients. The order is therefore 0, 1, 2, ...
+        # The coefficients are computed in increasing order, because each one depends on the lower ones.
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
@@ -61,9 +61,9 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, since ``terms`` contains all nonzero coefficients. ``closed`` must be true."""
-        # If ``closed`` is false, this is the series of a coordinate. The coefficients of a coordinate follow
-        # from the differential equation, and are appended one by one.
+        """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
+        # The series of a coordinate is not closed. Its coefficients follow from the differential equation,
+        # and are appended one by one.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -250,8 +250,8 @@ class Logarithm(Series):
 class Antiderivative(Series):
     """The series f(a) for a function f with a simple derivative, such as tan or atan.
 
-    The coefficients of b = f(a) follow from the differential equation b' = r a'. The series r is ``rate``. It
-    is the derivative of f at a. ``slope`` is the :class:`Slope` of a.
+    The coefficients of b = f(a) follow from the differential equation b' = r a'. Here r is the series
+    ``rate``, the derivative of f at a. ``slope`` is the :class:`Slope` of a.
     """
 
     rate: Series
@@ -267,8 +267,8 @@ class Antiderivative(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``. They may therefore depend on the
-        # lower coefficients of f(a). An example is the derivative 1 + tan(a)^2 of the tangent.
+        # The sum contains only the coefficients 0, ..., n - 1 of ``rate``. Hence ``rate`` may depend on f(a).
+        # For example, the derivative of the tangent is 1 + tan(a)^2.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -288,8 +288,8 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the sine or the cosine.
 
-        Let o_k be the coefficients of ``other``, and let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For
-        n > 0, coefficient n of the sine is z, and coefficient n of the cosine is -z.
+        Let o be the series ``other``, and let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For n > 0,
+        the result is z for the sine, and -z for the cosine.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -317,7 +317,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # The first mean is the sum of j y_j p_{n-j}/n. The second mean is the sum of j x_j q_{n-j}/n.
+        # ``means`` contains the sum of j y_j p_{n-j}/n and the sum of j x_j q_{n-j}/n.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -362,12 +362,12 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     Let a_0 be the value of a at the beginning of the step. All coefficients are computed with the polynomial
     of the interval that contains a_0.
     """
-    # On one interval of the table, f is a polynomial. Its Taylor formula at a_0 has therefore finitely many
-    # terms. The term of order k is (a - a_0)^k/k! times the derivative of order k at a_0.
+    # On one interval, f is a polynomial, so its Taylor series at a_0 is finite. The term of order k is
+    # (a - a_0)^k/k! times the derivative of order k at a_0.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
-    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The loop ends at a constant
-    # derivative.
+    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
+    # constant.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -385,7 +385,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
     """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
-    # For a = b the products a_j a_{n-j} and a_{n-j} a_j are equal. Each of them is computed only once.
+    # For a = b the products for j and n - j are equal, so only one of them is computed.
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
@@ -395,10 +395,10 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``. Equal products are computed only
     once.
     """
-    # The larger index n - j increases from term to term, as in :func:`_late_last`.
+    # The products are sorted by n - j, the larger of the two indices (see :func:`_late_last`).
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
-    # For even n, the square of a_{n/2} occurs only once in the sum.
+    # For even n, the sum also contains the square of a_{n/2}. This term is not doubled.
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
     return _add(twice, multiplied(middle, middle))
 
@@ -411,8 +411,8 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` j of the products a_j b_{n-j} by the larger of the two indices j and n - j."""
-    # The coefficients with the highest indices become known last. The sum therefore ends with their products.
-    # The processor can then compute all other products earlier.
+    # The coefficients with high indices are computed last. The products with these coefficients are therefore
+    # at the end of the sum, and the processor can compute all other products earlier.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 

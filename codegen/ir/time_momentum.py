@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 class TimeMomentum(Operation):
     """The update of the momentum u conjugate to the time, after a linear step from y to Y = (Q, P).
 
-    The vectors Q and P are the new positions and momenta. The new value of u is u + (Q.P' - P.Q')/2. The
-    prime denotes the derivative with respect to the time t for fixed y and fixed step size h. The arguments
-    are the point (y, u) before the step, the point (Y, u) and the time t. The result is the point Y with the
-    new value of u. The program ``step`` computes (Y, u) from (y, u) and t.
+    Q and P are the new positions and momenta. The new value of u is u + (Q.P' - P.Q')/2. The prime denotes
+    the derivative with respect to the time t for fixed y and fixed step size h. The arguments are the point
+    (y, u) before the step, the point (Y, u) after the step, and t. The result is Y with the new value of u.
+    The program ``step`` computes (Y, u) from (y, u) and t.
     """
 
     step: Program
@@ -36,8 +36,8 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point that consists of Y and the new momentum u + (Q.P' - P.Q')/2."""
         start, end, t = args
-        # Only expressions can be differentiated. If ``end`` consists of numbers, :meth:`_evaluated` repeats
-        # the step with expressions.
+        # Only expressions can be differentiated. In other domains, the step is therefore repeated with
+        # expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -45,13 +45,13 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increment (Q.P' - P.Q')/2 of the momentum u as a scalar of ``domain``."""
-        # The step is computed and differentiated with symbols for y and t. The scalars in ``start`` and ``t``
-        # replace the symbols in the derivative.
+        # The step is computed with symbols for y and t, and differentiated. The values ``start`` and ``t``
+        # then replace the symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # The symbols in ``point`` do not depend on t. Hence the derivative with respect to t is for fixed y.
+        # The symbols in ``point`` do not depend on t. Hence y is fixed in the derivative with respect to t.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

@@ -41,8 +41,8 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It computes the derivatives of exp X. If the coordinates of X are
-mpmath numbers or power series, it also computes exp X itself.
+"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, and for exp X in mpmath
+numbers and power series.
 """
 
 
@@ -80,7 +80,10 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications for degree 12. The squarings are not counted."""
+        """The numbers of additions and multiplications for a Taylor polynomial of degree 12.
+
+        The squarings are not counted.
+        """
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
@@ -158,14 +161,14 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
         total = _square(total)
-    # The results are NaN if ``norm`` is too large or NaN. A test ``norm > ...`` would not detect NaN.
+    # The condition ``not norm <= ...`` is also true if ``norm`` is NaN.
     if not norm <= largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return a bound of the absolute values of the eigenvalues of H.
+    """Return an upper bound of the absolute values of the eigenvalues of H.
 
     ``x`` are the coordinates of the matrix i H. The bound is 2 (p/3)^(1/2), where p = tr(H^2)/2.
     """
@@ -213,16 +216,16 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    ``x`` are the coordinates of the matrix i H. For j < k, let a and b be the coefficients of E_jk - E_kj and
-    of i (E_jk + E_kj). The entry (j, k) of H is b - i a.
+    ``x`` are the coordinates of the matrix i H. If a and b are the two coordinates for the pair j < k, the
+    entry (j, k) of H is b - i a.
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
     # ``ab``, ``cd`` and ``ef`` are |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
-    # For j < k, the entry (j, k) of H^2 contains the term (H_jj + H_kk) H_jk. The trace of H is zero. Hence
-    # H_jj + H_kk is minus the third diagonal entry.
+    # The entry (j, k) of H^2 contains the term (H_jj + H_kk) H_jk. The trace of H is zero, so H_jj + H_kk is
+    # minus the third diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
@@ -247,7 +250,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # v_0 I + v_1 H + v_2 H^2.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # Both matrices are Hermitian. Their entries (k, j) are therefore p - i q and r - i s.
+        # Both linear combinations are Hermitian, so their entries (k, j) are p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
@@ -256,15 +259,14 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 def _polynomial(y: list[float], norm: float) -> list[float]:
     """Return the value of the Taylor polynomial of the exponential for the matrix with the coordinates ``y``.
 
-    ``norm`` is a bound of the norm of the matrix. The degree is the smallest one in :data:`DEGREES` that
-    gives full accuracy for this bound.
+    ``norm`` is an upper bound of the norm of the matrix. The polynomial has the smallest degree in
+    :data:`DEGREES` that is accurate for this bound.
     """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
-    # ``parts[0]`` contains the real parts of the coefficients of I, H and H^2. ``parts[1]`` contains the
-    # imaginary parts. The degree n of the polynomial is a multiple of 4. Hence its leading coefficient i^n/n!
-    # is real.
+    # ``parts`` contains the real parts, then the imaginary parts, of the coefficients of I, H and H^2. The
+    # degree n is a multiple of 4, so the leading coefficient i^n/n! equals 1/n!.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):

@@ -63,12 +63,10 @@ class Coefficient:
         return f"{self.value.text()}{h}"
 
     def evaluate(self, domain: Domain) -> Scalar:
-        """Return the coefficient as a scalar of ``domain``. A domain is an arithmetic, for example that of
-        doubles or of power series.
-        """
+        """Return the coefficient as a scalar of ``domain``, for example as a double or a power series."""
         value = domain.number(self.value)
-        # The coefficient is one product without other factors, so that terms with equal coefficients can
-        # share it.
+        # The product ``value`` * h^``power`` is computed separately. Terms with equal coefficients can thus
+        # share the product.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -1,13 +1,13 @@
 """The names of vector functions. A vector function is a function whose result is an array.
 
-Expressions call a vector function by its name. The first number in the name is the number of rows:
-- ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential with its derivative.
+The first number in a name is the number n of rows of the matrix:
+- ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential together with its derivative.
 - ``inverse5`` is the inverse of a matrix.
 - ``product5`` is the product of two matrices, and ``commutator5`` is the commutator of two matrices.
 - ``expmv5`` is the matrix exponential applied to a vector.
 - ``expsu3`` is the exponential of a matrix of su(3).
 
-The suffix ``.k`` denotes result k of the function. For example, ``inverse5.7`` is result 7 of ``inverse5``.
+The suffix ``.k`` denotes entry k of the result. For example, ``inverse5.7`` is entry 7 of the inverse.
 """
 
 from __future__ import annotations
@@ -32,10 +32,9 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
-# The suffix of ``expmv5_1f`` is a hexadecimal number. If bit k of this number is 0, entry k of the matrix is
-# zero.
+# In ``expmv5_1f``, 1f is a hexadecimal number. If bit k of this number is 0, entry k of the matrix is zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
-# The number in the suffix ``_d1`` is the level of ``expm``: the highest order of its derivatives.
+# The number after ``_d`` is the highest order of the derivatives. It is called the level of ``expm``.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -53,7 +52,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # Only the matrix exponential ``expm`` has a level.
+    # The other functions have no level.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 

@@ -1,8 +1,8 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-An expression calls the function ``NAME.k`` for result k of the function ``NAME``
-(:mod:`codegen.ir.vector_calls`). The arguments of the call are the entries of all argument arrays. In emitted
-code, one call computes all results.
+In an expression, ``NAME.k`` denotes entry k of the result of the vector function ``NAME``
+(:mod:`codegen.ir.vector_calls`). The arguments are the entries of all argument arrays. In emitted code, one
+call computes all entries of the result.
 """
 
 from __future__ import annotations
@@ -55,8 +55,7 @@ class VectorFunction(ABC):
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the argument with the index ``argument``."""
         space = args[0].space
-        # A partial derivative is a directional derivative. The component of the direction is 1 for
-        # this argument, and 0 for all other arguments.
+        # A partial derivative is the derivative in the direction of a unit vector.
         return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod

@@ -80,20 +80,20 @@ class _Verifier:
         """
         for arg in assign.args:
             self.use(arg, assign)
-        # The targets are defined after the arguments are checked. An assignment that reads its own target is
-        # thus rejected.
+        # An assignment must not read its own target. Therefore the arguments are checked before the targets
+        # are defined.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # Each unknown of the equations u = g(u) needs a first value (start) and a value of g (image).
+        # Each unknown of u = g(u) needs an initial guess (start) and a component of g(u) (image).
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The starts are checked before the unknowns are defined. A start that is an unknown of the block is
-        # thus rejected.
+        # A start (initial guess) must not be an unknown of the block. Therefore the starts are checked before
+        # the unknowns are defined.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
@@ -114,7 +114,7 @@ def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(
-            f"{name}: {block.label} needs unknowns. Each unknown needs a start and an image of its kind"
+            f"{name}: {block.label} needs unknowns. Each unknown needs a start and an image of the same kind"
         )
     if block.residuals and len(block.residuals) != len(block.unknowns):
         raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
