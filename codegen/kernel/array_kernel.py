@@ -130,7 +130,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
     # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
-    # expressions. The caller replaces 0 by the order of the error estimate.
+    # expressions. The order 0 is a placeholder, which the caller replaces.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -195,8 +195,8 @@ class _Builder:
         # Without an embedded solution, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the new state minus the embedded solution. This difference is the basis times the
-        # difference of the displacements. Without the summand X_0, the rounding errors are smaller.
+        # The estimate is the new state minus the embedded solution. X_0 cancels, so the estimate is the basis
+        # times the difference of the displacements. Without X_0, the rounding errors are smaller.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -292,8 +292,8 @@ class _Builder:
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # Because C = J + D, the core S is the sum of E J^T - J E^T and E D^T - D E^T. The first summand has
-        # two nonzero blocks: ``below`` is the unit matrix, and ``right`` is minus the unit matrix.
+        # With C = J + D, the core is S = (E J^T - J E^T) + (E D^T - D E^T). The first summand has two nonzero
+        # blocks: ``below`` is the unit matrix, and ``right`` is minus the unit matrix.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
@@ -305,7 +305,7 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` with the time ``t`` and the values of the fixed parameters inserted."""
+        """Return ``statement`` with the values of the time ``t`` and of the fixed parameters inserted."""
         values = {**self.scene.scalars(self.domain, t)}
         # The symbols ROW and COLUMN are the indices of a matrix entry. These symbols are not replaced. In the
         # emitted code, they are loop variables.
@@ -323,7 +323,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
-                    # A tuple consists of numbers and contains no symbols.
+                    # A tuple contains only numbers, so nothing is inserted.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)

@@ -3,8 +3,8 @@
 Shared and long expressions become assignments, and blocks of implicit equations become loops. A sweep is one
 execution of the body of a loop. A loop contains the expressions that depend on its unknowns. All other
 expressions are assigned before the loop. Statements after a loop use values of the last sweep, or compute
-these values again. If a step can start from the solutions of earlier steps, one statement before all loops
-sets the first values of the unknowns.
+these values again. A step may be able to start from the solutions of earlier steps. Then one statement before
+all loops sets the first values of the unknowns.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the body of the kernel. The output expressions are stored in ``outputs``."""
-        # ``_prepare`` counts the uses in all loops. A value that occurs in two loops thus gets a name.
+        # ``_prepare`` counts how often each value occurs in all loops. So a value that occurs in two loops
+        # gets a name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -69,8 +70,8 @@ class Assignments:
             # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. The matrix is
-            # placed before the images, so that it uses no values of the body.
+            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep, so it must not
+            # use values of the loop body. Therefore the matrix is placed before the images.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # ``block.kept`` lists values of the body for later statements. Values that no later expression
@@ -80,11 +81,12 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # If ``block.leading`` is false, Newton's matrix may use values of the body.
+            # If ``block.leading`` is false, Newton's matrix may use values of the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's method corrects the unknowns once more after the last execution of the body. The values
-            # of the body are then slightly outdated. Later statements compute these values again if the cost
-            # is low, or if the equations have residuals.
+            # Newton's method corrects the unknowns once more after the last execution of the loop body. The
+            # values of the body are then slightly outdated. If the equations have residuals, later statements
+            # correct the values in ``block.kept``, and compute all other values again. Without residuals, the
+            # values are computed again if the cost is low.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -110,7 +112,7 @@ class Assignments:
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        # Each root counts as one use. A root that is also an operand thus has two uses and gets a name.
+        # A value with two uses gets a name. Each root has one use, plus one for each operation that reads it.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
@@ -132,14 +134,15 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # A step may skip the start statement. Other statements must therefore not use names from it.
+        # A step may skip the start statement, so other statements must not read names that this statement
+        # assigns.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # A value that other statements need is assigned before the start statement.
+            # A value that other statements read is assigned before the start statement, which may be skipped.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -171,7 +174,7 @@ class Assignments:
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
-        # Values that depend on a later loop are not counted, because they are always computed after loop k.
+        # Values that depend on a later loop are computed after loop k in all cases, so they do not count.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
@@ -195,7 +198,7 @@ class Assignments:
             # Only values that depend on the unknowns are computed in the loop (loop-invariant code motion).
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # ``_make`` does not simplify. A simplified formula could have different rounding errors.
+            # ``_make`` does not simplify, because a simplified formula could have different rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value that is computed before the loop and read inside gets a name. Without a name, every

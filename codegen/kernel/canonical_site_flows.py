@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-One sweep computes successive flows that act on each site separately. A kick is a flow that changes only the
-momenta. A kick reads the group elements q of the neighbours, but not the momenta of the neighbours. The sweep
-of a kick can therefore overwrite the state.
+One sweep computes successive flows of the same kind. A kick is a flow that changes only the momenta. At each
+site, it reads the group elements q of the neighbours, but not their momenta. The sweep of a kick can
+therefore overwrite the momenta. All other flows change each site independently of its neighbours.
 """
 
 from __future__ import annotations
@@ -32,9 +32,10 @@ Word = Sequence[tuple[Summand, Number]]
 COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
-The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. Both
-sweeps must visit all sites and read no neighbours. If the first sweep is a kick or a flow of pairs, a copy is
-added before it. If the last sweep is a kick or a flow of pairs, a copy is added after it.
+The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. So
+each of these two sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or a
+flow of pairs, a copy is added before it. If the last sweep is a kick or a flow of pairs, a copy is added
+after it.
 """
 
 
@@ -56,8 +57,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # One sweep computes the successive flows in ``run``. If the same flows occur again in the step, with
-        # all durations changed by a common factor, the sweep is reused.
+        # One sweep computes the successive flows in ``run``. If a later run has the same flows and the same
+        # ratios of durations, the sweep is reused.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -108,7 +109,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for flows that act on each site separately.
 
-    In the kernel of the sweep, h is the duration of the first flow.
+    The kernel of the sweep denotes the duration of the first flow by h.
     """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
@@ -137,8 +138,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # The sweep changes only momenta, and reads only the group elements q of the neighbours. It can therefore
-    # read and write the same array.
+    # The sweep writes only momenta, and reads only the group elements q of the neighbours. So the same array
+    # can be read and overwritten.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))

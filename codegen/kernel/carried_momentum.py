@@ -2,8 +2,8 @@
 
 The step program and the emitted code may use different frames. If only the emitted code uses the body frame,
 each step converts the momentum. If only the program uses the body frame, a run converts the momentum once at
-its beginning and once at its end (:class:`codegen.ir.kernel.Carried`). With the option ``whole``, each step
-converts the momentum in this case, too.
+its beginning and once at its end (:class:`codegen.ir.kernel.Carried`). If the option ``whole`` is set, each
+step converts the momentum instead.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    ``whole`` is used if only the program uses the body frame. If ``whole`` is true, each step converts the
-    momentum. If ``whole`` is false, a run converts the momentum at its beginning and at its end.
+    If only the program uses the body frame, ``whole`` determines when the momentum is converted. If ``whole``
+    is true, each step converts the momentum. If ``whole`` is false, a run converts the momentum at its
+    beginning and at its end.
     """
 
     scene: Problem

@@ -43,17 +43,17 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows and without a cotangent bundle, all variants of the group give the same kernel. In this
-    # case only the order of factors in products is chosen: the given order, or constant factors first.
+    # Without flows and without a cotangent bundle, all variants of the group give the same kernel. Then only
+    # two orders of the factors in products are compared: the given order, and constant factors first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # Deferred flows are applied once in a run, so only the program of a step (the core) is compared. Run-time
-    # inputs are sampled in every step, so a scene with run-time inputs has no deferred flows.
+    # Deferred flows are applied once in a run, so the variants are compared without these flows. A scene with
+    # run-time inputs has no deferred flows, because the inputs are sampled in every step.
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # The formulas of the group and of the scene can share subexpressions. Therefore the time of each variant
-    # is estimated from its compiled kernel.
+    # The formulas of the group and of the scene can share subexpressions, so their costs cannot be added. The
+    # time of each variant is estimated from its compiled kernel.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -71,8 +71,8 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
     If some kernels contain outlined functions, only these kernels are compared.
     """
-    # Functions are outlined only in long steps. The instruction cache limits the speed of a long step, so
-    # shorter code with outlined functions is preferred.
+    # Only kernels of long steps contain outlined functions. The instruction cache limits the speed of a long
+    # step, so the shorter code with outlined functions is preferred.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 

@@ -23,12 +23,14 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.kernel import Kernel, Let
 
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
-"""Latency of operations. The unit is the latency of one addition.
+"""Latencies of operations, in multiples of the latency of an addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
 cycles. A call is assumed to evaluate a polynomial that approximates the function.
-``benchmarks/emitted.py`` times the resulting steps. The exact values matter little. With 2 or 8 for a
-division, the code of five explicit methods does not change. With 3 or 12 for a call, only the code of
+``benchmarks/emitted.py`` measures the resulting steps.
+
+The exact values matter little. If the latency of a division is set to 2 or 8, the code of five explicit
+methods does not change. If the latency of a call is set to 3 or 12, only the code of
 splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
@@ -36,21 +38,20 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""The largest difference between the times of the longest chain and of a rewritten chain. The unit is one
-addition.
+"""A chain is rewritten if it is shorter than the longest chain by at most this time. The unit is the latency
+of an addition.
 
-If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The values
-0, 2 and 4 give the same emitted files. If all chains are rewritten, the emitted splittings for fast_heavy_top
-change (``orderconds regenerate --check``).
+If only the longest chain were rewritten, a slightly shorter chain could become the critical path. With
+the limits 0, 2 and 4, the emitted files are the same. If all chains are rewritten, the emitted splittings for
+fast_heavy_top change (``orderconds regenerate --check``).
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product has at most one late factor. A late factor is usually the result of a slow
+"""A sum of products. Each product has at most one late factor, which is usually the result of a slow
 operation.
 
-A key of the dictionary is a late factor. The key None belongs to the product without a late factor. An entry
-contains three values: a sign, the product of the factors that are constant in a run, and the product of all
-remaining factors.
+The keys are the late factors. The product without a late factor has the key None. An entry contains a sign,
+the product of the factors that are constant in a run, and the product of the other factors.
 """
 
 
@@ -66,25 +67,25 @@ def chain(kernel: Kernel) -> int:
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     """Return assignments sorted by the time at which their values are ready.
 
-    A processor looks only a few hundred instructions ahead. It executes two operations in parallel only if
-    they are near each other in the code. Before the sort, times are rounded down to multiples of the latency
-    of a call. A sort by exact times would separate operations that read the same values.
+    A processor looks only a few hundred instructions ahead. To be executed in parallel, two operations must
+    be near each other in the code. A sort by exact times would separate operations that read the same
+    values. Therefore the times are rounded down to multiples of the latency of a call.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
-        # Later assignments read this symbol, so its time is stored in ``ready``.
+        # Later assignments may read this symbol, so its time is stored.
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # A value is ready no earlier than its arguments. Assignments with equal times keep their order. So each
-    # name is assigned before it is read.
+    # No value is ready before its arguments, and assignments with equal times keep their order. So each name
+    # is assigned before it is read.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` stops at nodes with known times. It also yields these nodes, so the loop skips them.
+    # ``walk`` stops at nodes with known times. It yields these nodes, too, but the loop skips them.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -95,8 +96,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves such products out of the loop over the steps. If ``spread`` is false, no other
-    operations are rewritten.
+    because a compiler moves these products out of the loop over the steps. If ``spread`` is false, the other
+    operations are not rewritten.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -128,7 +129,7 @@ class _Chains:
             self._measure(node)
         # A backward pass computes ``follow``.
         for node in reversed(self.nodes):
-            # If no node reads a root, no operation follows the root, and its entry in ``follow`` is 0.
+            # If no operation reads a node, the node is a root, and its entry in ``follow`` is 0.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
@@ -136,7 +137,8 @@ class _Chains:
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
-        # The level of a node is the largest number of slow operations in a chain that ends at the node.
+        # The level of a node is the largest number of slow operations (:data:`ATOMS`) in a chain that ends at
+        # the node.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
         # A value is fixed if it is constant in a run.
@@ -149,7 +151,7 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # ``_make`` creates the node without simplification, so the operation keeps its rounding error.
+            # ``_make`` does not simplify, so the rounding errors do not change.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -165,27 +167,27 @@ class _Chains:
         """Return the ids of the nodes that are expanded to sums of products.
 
         Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        The expansion ends at the node, because at least one operation that reads the node must wait for the
-        complete sum.
+        At least one operation that reads the node cannot be included in the expansion.
         """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # A chain through ``arg`` and ``node`` is not rewritten if the longest chain is longer by more
-                # than ``SLACK``.
+                # A chain through ``arg`` and ``node`` is rewritten only if it is almost as long as the
+                # longest chain (:data:`SLACK`).
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 # A square ``arg * arg`` is not linear in ``arg``. In this case ``others`` is empty, and
                 # ``linear`` is false.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # Let r be a result of a slow operation in ``arg``, with the level ``late``. A factor of a
-                # lower level does not contain r, so the product of ``arg`` and this factor is linear in r.
+                # Let r be the result of a slow operation in ``arg``, and let r have the level ``late``. A
+                # factor of a lower level does not contain r, so the product of ``arg`` and this factor is
+                # linear in r.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If ``node`` is linear in r and has the level ``late``, the expansion continues to ``node``.
-                # Otherwise the expansion ends at ``arg``.
+                # If ``node`` has the same level and is linear in r, the sum for ``node`` includes the sum for
+                # ``arg``. Otherwise ``arg`` is expanded separately.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -196,8 +198,8 @@ class _Chains:
         The late factors are results of slow operations of the given ``level``. Results of slow operations of
         a lower level count as ordinary factors.
         """
-        # The expansion may contain the node ``self.new[node.id]``. This entry of ``new`` can change later, so
-        # the key contains the id of the node.
+        # The sum may contain ``self.new[node.id]``. This entry changes when ``node`` is expanded, so the key
+        # contains the id of the entry.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -215,14 +217,14 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y does not
-                # wait for c.
+                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y can be
+                # computed before c is known.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
-            # The factors are exchanged so that ``a`` has the lower level. If the level of ``a`` is below
-            # ``level``, ``a`` contains no late factor, and the product is expanded.
+            # If one argument contains no late factor, this argument is called ``a``, and the product is
+            # expanded.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -235,8 +237,7 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two entries of a sum with the same late factor (:data:`Sum`). The entries do not contain this
-        factor."""
+        """Return the sum of two entries that have the same late factor (:data:`Sum`)."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -273,7 +274,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Compute the times of a new node and of its new arguments, and return the node."""
+        """Return ``node``, after its times and the times of its new arguments are computed."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

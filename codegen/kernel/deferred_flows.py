@@ -29,8 +29,8 @@ class Parted:
 
     - ``begin`` is executed before the first step. It is None if no flows are joined.
     - ``core`` is executed in each step. A joined flow in ``core`` includes the leading flow of the next step.
-      Its duration is the variable :data:`LEAD`. In the last step of a run, the value of LEAD is ``last`` * h,
-      because no step follows. In all other steps the value is ``later`` * h.
+      The duration of a joined flow is the variable :data:`LEAD`. In the last step of a run, LEAD is
+      ``last`` * h, because no step follows. In all other steps, LEAD is ``later`` * h.
     - ``finish`` is executed after the last step. It is None if no flow is deferred to the end of the run. The
       flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """
@@ -45,8 +45,8 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program is not a composition of flows, if no flow can be deferred to a later
-    step, or if no flow would remain in the steps.
+    The result is None if the program is not a composition of flows. It is also None if no flow can be
+    deferred, or if no flow would remain in the steps.
     """
     letters = word(program)
     if letters is None:
@@ -54,8 +54,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # ``commute`` compares two flows numerically, because the symbolic Lie bracket of commuting flows may not
     # simplify to zero.
     commute = commuting(scene)
-    # If a flow of a part reads a stage time or has a duration other than h, all flows of this part remain in
-    # the steps.
+    # If a flow reads a stage time or has a duration other than h, all flows of its part remain in the steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flows of parts in ``free`` commute with all other flows, so they can be applied after the last step.
@@ -69,14 +68,14 @@ def part(program: Program, scene: Problem) -> Parted | None:
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # The durations are the same in all entries of ``joined``, so they are read from the first entry.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # ``heads`` and ``tails`` are disjoint. A flow in both sets would be a leading flow with the same part as
-    # another leading flow. But all leading flows belong to different parts.
+    # A flow in ``tails`` belongs to the same part as an earlier leading flow. All leading flows belong to
+    # different parts, so no flow is in both ``heads`` and ``tails``.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core does not contain the flows in ``heads``, because the final flows of the previous step include
     # them. These final flows therefore have a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # Let X be the vector field of a part in ``free``. Its flows of n steps are joined into one flow:
+    # Let X be the vector field of a part in ``free``. The flows of this part in n steps are joined into one:
     # exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
     # ``verify`` checks that each new program is well-formed.
@@ -103,8 +102,8 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Return True if the duration of a flow is h."""
-    # The coefficient of h may be a ball (a number with an error bound). A ball is never exactly 1, so the
-    # coefficient is rounded to a double.
+    # The coefficient of h may be a ball (a number with an error bound). A ball does not compare equal to 1,
+    # so the coefficient is rounded to a double.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
@@ -132,15 +131,14 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # The index ``k`` of ``tail`` counts from the end of ``kept``. The index ``j`` of ``tail`` counts
-            # from the beginning.
+            # ``tail`` has the index ``k`` from the end of ``kept``, and the index ``j`` from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             # If i = j, ``head`` and ``tail`` are the same flow, so there are no two flows to join.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows read the same duration variable. So only pairs with the durations of the first pair are
-    # joined.
+    # All joined flows read the same duration variable. Pairs whose durations differ from those of the first
+    # pair are not joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
@@ -162,7 +160,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
-    # All stage times are copied. The kernel later omits the stage times that no flow reads.
+    # All stage times are included. The compiler omits the stage times that no flow reads.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.

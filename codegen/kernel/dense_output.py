@@ -31,8 +31,8 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # With the option COMBINED, no functions are outlined. An outlined function could have the same name as a
-    # function in the kernel of the step.
+    # The option COMBINED outlines no functions. The name of an outlined function could already occur in the
+    # kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     # The program has one output for each power of theta, starting with theta^1.
     degree = len(program.outputs)

@@ -1,8 +1,8 @@
 """Implicit equations u = g(u) of a step, and the matrix of Newton's method.
 
-The values g(u) are called images. Newton's matrix is 1 - g'(u). For equations r(u) = 0 with a residual r,
-Newton's matrix is -r'(u). At the solution, the unknowns u equal the images. Therefore the statements after
-the equations read the unknowns in place of the images.
+The values g(u) are called images, and Newton's matrix is 1 - g'(u). If the equations have the form r(u) = 0,
+r is called the residual, and Newton's matrix is -r'(u). At the solution, the images are equal to the unknowns
+u. Therefore the statements after the equations read the unknowns in place of the images.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""The largest number of unknowns for which all products of sums in Newton's matrix are multiplied out. With
-more unknowns, sums that are constant in a step are kept as single factors.
+"""The largest number of unknowns for which all products of sums in Newton's matrix are expanded. With more
+unknowns, a sum that is constant in a step remains a single factor.
 
-With few unknowns, the sweeps need the registers that single factors would occupy. With many unknowns,
-multiplying out makes the code longer. Near the limit the choice matters little. For example, the kernel of
-vcf:cf4 on dipole has 12 unknowns and 439 assignments with single factors. Multiplied out, it has 472.
+With few unknowns, the single factors would occupy registers that the sweeps need. With many unknowns, the
+expanded matrix would make the code longer. Near the limit the choice matters little. For example, the kernel
+of vcf:cf4 on dipole has 12 unknowns. It has 472 assignments with the expanded matrix, and 439 with single
+factors.
 """
 
 LONGEST_MATRIX = 1500
@@ -51,12 +52,13 @@ class Block:
     """A block of equations u = g(u) as expressions.
 
     - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
-    - ``images`` are the values g(u). In the result of :func:`compared`, they are the residuals r(u).
+    - ``images`` are the values g(u). The function :func:`compared` replaces these values by the residuals
+      r(u).
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
-    - ``leading`` is true for the simplified Newton method, whose matrix is expanded to first order in h.
+    - ``leading`` is true for the simplified Newton method.
     - ``changes`` are the names of the variables that contain the changes of the unknowns in the last sweep.
-    - ``kept`` contains the names and expressions of values that each sweep computes for the statements after
-      the loop.
+    - ``kept`` contains values that each sweep computes for statements after the loop. Each value has a name
+      and an expression.
     """
 
     label: str
@@ -83,8 +85,8 @@ def compared(
     has no residuals, or if the residuals cannot be expanded in h.
 
     Statements after the loop read values that the loop body computes. The last sweep computes these values
-    before it changes the unknowns. Therefore ``env`` receives values with a first-order correction. If a
-    correction takes at least half of the operations of a new computation, the value is computed again.
+    before it changes the unknowns. Therefore first-order corrections are added to the values in ``env``. If a
+    correction costs at least half as much as a new computation, the value is computed again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -179,7 +181,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return the number of operations in the matrix ``rows`` that do not also occur in ``images``."""
-    # Each sweep computes the images, so the operations that the matrix shares with the images cost nothing.
+    # Each sweep computes the images in all cases, so operations that also occur in the images cost nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 

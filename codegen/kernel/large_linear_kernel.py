@@ -87,10 +87,10 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A linear combination of matrices h A(t_i) and of commutators, divided by a power of h.
+    """A linear combination of matrices h A(t_i) and of their commutators, divided by h^p.
 
-    ``power`` is the exponent of h. ``nodes`` maps the index i of a matrix to its coefficient. ``commutators``
-    maps the index of a commutator to its coefficient.
+    ``power`` is the exponent p. ``nodes`` maps i to the coefficient of h A(t_i). ``commutators`` maps the
+    index of a commutator to the coefficient of this commutator.
     """
 
     power: int
@@ -179,7 +179,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # The value A(t) is the matrix h A(t) divided by h, so its power is 1.
+            # A(t) is the matrix h A(t) divided by h, so ``power`` is 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
@@ -222,8 +222,8 @@ class _Builder:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A term with the coefficient zero would cost a product with a matrix, so it is removed.
-                    # Then ``is_zero`` recognizes a zero sum.
+                    # A term with the coefficient zero is removed, because it would cost a matrix product. So
+                    # the dictionaries of a zero sum are empty (``is_zero``).
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -231,8 +231,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, :func:`_difference` may replace x by a combination of differences
-        of values of A. These differences are small, so the norm of the commutator has a smaller bound.
+        If x and y contain no commutators, :func:`_difference` subtracts a multiple of y from x. The result is
+        usually a combination of differences A(t_i) - A(t_j), which are small. So the norm of the commutator
+        has a smaller bound.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -319,11 +320,11 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     """Return x - c y and y. Their commutator is [x, y] for every number c.
 
-    With the chosen c, the coefficients of x - c y add up to zero. If this is impossible, c is 0.
+    If possible, c is chosen so that the coefficients of x - c y add up to zero. Otherwise c is 0.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x add up to zero, c = 0 is the solution. If the coefficients of y add up to zero,
-    # c has no effect on the sum.
+    # If the coefficients of x already add up to zero, nothing is subtracted. If the coefficients of y add up
+    # to zero, no c can change the sum of the coefficients.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # The coefficients of x - ``ratio`` * y add up to zero.

@@ -2,17 +2,16 @@
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. The pair
 (a, b) denotes the vector field u -> a lambda u + b, an element of the Lie algebra of this group. In a step, b
-is a linear combination of values of N. The coefficients of b are functions of z = h lambda. This module
-executes a program symbolically, with such functions as coefficients (:mod:`codegen.ir.mode_step`). Three
-formulas are sufficient:
+is a linear combination of values of N. The coefficients of b are functions of z = h lambda
+(:mod:`codegen.ir.mode_step`). This module executes a program symbolically. Three formulas are sufficient:
 
 - The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b, where phi_1(z) = (exp(z) - 1)/z.
 - The bracket [(a, b), (c, d)] is (0, lambda (a d - c b)).
 - Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
   (c, beta d + (1 - beta) c b/a).
 
-Let ad be the bracket with x. The third formula follows from an identity for power series f: f(ad) is equal to
-f(0) + (f(a z) - f(0))/(a z) ad.
+Let ad be the bracket with x. The third formula holds because ad^2 = a z ad. Therefore every power series f
+satisfies f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
 """
 
 from __future__ import annotations
@@ -66,9 +65,10 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N. The dictionary contains the coefficients.
+"""The coefficients of a linear combination of the old state and of values of the nonlinear term N.
 
-The key of the old state is :data:`codegen.ir.mode_step.STATE`. The key of a value of N is its index.
+The key of the old state is :data:`codegen.ir.mode_step.STATE`. The key of a value of N is the index of the
+evaluation.
 """
 
 ZERO = Number.rational(0)
@@ -256,7 +256,7 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All other terms have the same power of h.
+        # All nonzero elements of the sum have the same power of h.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -267,12 +267,12 @@ class _Execution:
         """Record an evaluation of N at ``point`` and ``time``. Return the value of the vector field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The field u -> lambda u + N_j is the pair (1, N_j), where N_j is the new value of N.
+        # The new value of N is N_j. The vector field u -> lambda u + N_j is denoted by the pair (1, N_j).
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential maps u to exp(a z) u + h phi_1(a z) b. A ``_Map`` stores the last term without h.
+        # The exponential maps u to exp(a z) u + h phi_1(a z) b. A ``_Map`` stores a and phi_1(a z) b.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
