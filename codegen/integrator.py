@@ -210,7 +210,7 @@ class Integrator(RunToEnd):
         - ``h`` is the size of the first step.
         - ``t_eval`` are times at which a step ends. The result contains the states at these times.
         - ``end`` is the end of the run, by default the last time in ``t_eval``.
-        - ``limit`` is the largest number of steps.
+        - ``limit`` is the largest number of steps, rejected steps included.
 
         If ``state`` is a batch, its states are integrated one after another. The result then contains an
         array of states, and the total numbers of accepted and rejected steps.
@@ -261,7 +261,7 @@ class Integrator(RunToEnd):
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
-            arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
+            arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted - rejected)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
             # If one step reaches ``time``, this step may have been shortened to end there. In this case,
             # ``arrival.h`` may be too small. Therefore the larger of ``h`` and ``arrival.h`` is used.

@@ -163,6 +163,20 @@ def test_runs_go_back_and_on(target):
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
+def test_the_limit_counts_the_rejected_steps_before_each_output_time(target):
+    emission = emitted("free_rigid_body", "cf:cf43", target)
+    start, integrator = emission.manifest["initial"], load(emission)
+    options = {"h": 2.0, "rtol": 1e-6, "atol": 1e-6, "t_eval": [0.5, 1.0, 1.5]}
+    whole = integrator.adaptive(start, 0, 2, **options)
+    steps = whole.accepted + whole.rejected
+    assert whole.rejected
+    assert integrator.adaptive(start, 0, 2, **options, limit=steps) == whole
+    with pytest.raises(StepFailed) as failure:
+        integrator.adaptive(start, 0, 2, **options, limit=steps - 1)
+    assert failure.value.status == Status.LIMIT
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
 def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
     emission = emitted("free_rigid_body", "cf:cf43", target)
     start, integrator = emission.manifest["initial"], load(emission)
