@@ -1,8 +1,9 @@
 """Matrices 1 - g'(u) of Newton's method for equations u = g(u).
 
 A matrix is either exact or expanded to first order in h. The expansion is cheap, because it contains only
-derivatives at h = 0. Its error is O(h^2), so a Newton correction multiplies the error of u by O(h^2). This is
-sufficient for short steps. Small matrices are inverted by formulas with cofactors.
+derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each Newton iteration multiplies
+the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are inverted by
+cofactors.
 """
 
 from __future__ import annotations
@@ -119,8 +120,8 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # The other rows are a and b, and the other columns are c and d. For n = 3, their cyclic order gives the
-    # right sign. For n = 2, one row and one column are left, and the sign is set explicitly.
+    # Without row i and column j, a 3 x 3 matrix has the rows a, b and the columns c, d. Their cyclic order
+    # gives the right sign. A 2 x 2 matrix has only the row a and the column c, so the sign is set explicitly.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

@@ -66,7 +66,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step may consist of several substeps. Each substep executes the operations outside loops.
+        # A step may consist of several substeps. Each substep executes the operations outside loops once.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -75,13 +75,13 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Count the operations of a kernel by name, as :func:`operations` does.
 
-    If the kernel has no outputs, the counted operations depend on its type:
+    Some kernels have no outputs. For these kernels, the following operations are counted:
 
-    - For a Taylor polynomial, the computation of its coefficients and its evaluation.
-    - For a step with large matrices, the operations of the whole step. The number of series terms in an
-      exponential depends on the matrix, so a typical number is assumed.
-    - For a step on a lattice, the operations for one site or for one pair of sites.
-    - For a step on Fourier modes, only the Fourier transforms.
+    - Taylor polynomial: the computation of the coefficients, and the evaluation of the polynomial.
+    - Step with large matrices: the operations of the whole step. The number of series terms in an exponential
+      depends on the matrix, so a typical number is assumed.
+    - Step on a lattice: the operations for one site or for one pair of sites.
+    - Step on Fourier modes: only the Fourier transforms.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -96,11 +96,12 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     # Horner's rule takes ``degree`` additions and products for each component of the state.
     number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
-        # The coefficient of order 1 is counted above. The kernel ``following`` computes one further order.
+        # The coefficients of order 1 are counted above. The kernel ``following`` is called once for each
+        # further order.
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
-        # In coefficient n of a product of two series, an inner sum has n - 1 terms.
+        # The inner sum a_1 b_(n-1) + ... + a_(n-1) b_1 of order n has n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
     # ``enter`` converts the state to the coordinates of the polynomial, and ``leave`` converts the result
@@ -159,8 +160,8 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, mu is changed by the difference of two results of ``outward``. This takes two
-        # additions for each component.
+        # At the end of a run, the difference of two results of ``outward`` is added to the momentum. This
+        # takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -1,9 +1,9 @@
 """Outlined functions: a group of operations that a step repeats becomes one function.
 
-The operations of a group form a tree: each result except the last is an operand of one other operation of the
-tree. The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. If
-every call passes the same constant for an argument, the function contains this constant instead. A function
-computes only the results that the step reads.
+The operations of a group form a tree. The last operation gives the results of the tree. The results of each
+other operation are read by only one operation of the tree. The arguments of a function are the inputs of the
+tree and the coefficients of its sums. If every call passes the same constant for an argument, the function
+contains this constant instead. A function computes only the results that the step reads.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # Constants are inserted here, so that the operations of the function can combine them. The last
-        # entries of ``fixed`` may belong to later inputs.
+        # Constants are inserted here, so that the operations of the function can combine them. ``fixed`` also
+        # contains entries for inputs that later calls of this method return.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Return the text of the coefficient ``c`` of a term: a name or a number, and powers of h.
+        """Return the text of a coefficient: a name or a number, followed by the factors h of ``c``.
 
         ``x`` is the value of ``c`` without the powers of h. If ``x`` is a symbol, the text contains its name.
         Otherwise the text contains the number.
         """
-        # A symbol is named ``FUNCTION.ARGUMENT``. The text contains the name of the argument.
+        # The name of a symbol is ``FUNCTION.ARGUMENT``. The text contains only ``ARGUMENT``.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -61,16 +61,16 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the function for a tree, the positions of the inputs that it reads, and its parameters.
+    """Return the outlined function for a tree, the positions of its inputs, and its run-time parameters.
 
-    The parameters are run-time parameters of the scene. The function returns the results with the indices
-    ``read``. ``fixed`` has one entry for each input. If every call passes the same constant, the entry is
-    this constant. Otherwise it is None.
+    ``read`` contains the indices of the results that the outlined function returns. ``fixed`` has one entry
+    for each input of the tree. If every call passes the same constant, the entry is this constant. Otherwise
+    the entry is None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The expressions of one call may be simplified, and then they do not fit the other calls. Therefore the
-    # tree is executed with symbols as inputs.
+    # The expressions of a tree may be simplified for its own inputs. The function must be correct for all
+    # inputs, so the tree is executed with symbols as inputs.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -86,7 +86,7 @@ def function(
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
         assign = trees.executions[i].assign
-        # A negative position -1, -2, ... denotes the entry 0, 1, ... of ``results``.
+        # A negative position p denotes the entry -p - 1 of ``results``.
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:

@@ -5,8 +5,8 @@ differ only in their operands and coefficients. One function replaces these tree
 (:mod:`codegen.kernel.outlined_functions`). Its arguments are the operands and coefficients.
 
 Outlining shortens the code. But two calls of a function cannot share common subexpressions, such as the sine
-of one angle. Shorter code saves more time than this costs only in long steps. Therefore only long steps are
-outlined.
+of one angle. In short steps the repeated computations cost more time than the shorter code saves. Therefore
+only long steps are outlined.
 
 Apart from rounding errors, outlining does not change the values of expressions. To verify this, the old and
 the new expressions are evaluated at a test point.
@@ -35,18 +35,17 @@ LONG_EXPLICIT assignments.
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining shortens
 a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time.
 
-The exact limits hardly matter: with twice either limit, nine methods of the gallery have the same kernels. To
-choose the limits again, run ``orderconds bench dipole`` with both limits set to 0.
+The exact limits hardly matter. If one limit is doubled, nine methods of the gallery keep their kernels. For a
+new choice of the limits, set both to 0 and run ``orderconds bench dipole``.
 """
 
 WORTH = 0.85
 """The largest fraction of assignments that may remain after outlining. If a larger fraction would remain, the
 step is not outlined.
 
-Calls cost time, so the step must become much shorter. The exact limit hardly matters. On dipole, the
-fraction is between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6``. On heavy_top, it is
-in the same range for ``vcg:gauss4``. It is 0.86 for one variant of ``cg:cg5`` on heavy_top, so this variant
-is not outlined.
+Calls cost time, so the step must become much shorter. The exact limit hardly matters. The fraction is between
+0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and for ``vcg:gauss4`` on
+heavy_top. One variant of ``cg:cg5`` on heavy_top has the fraction 0.86. This variant is not outlined.
 """
 
 AGREE = 1e-9
@@ -57,14 +56,16 @@ change the leading digits.
 """
 
 ATTEMPTS, DIGITS = 8, 60
-"""ATTEMPTS test points are tried in double precision, then ATTEMPTS points with DIGITS decimal digits.
+"""The verification tries ATTEMPTS test points in double precision.
 
-The verification fails if no test point gives finite values.
+If none of them gives finite values, it tries ATTEMPTS further points with DIGITS decimal digits. If these
+points fail, too, the verification fails.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""A function is identified by the key of the trees that it replaces, and by the indices of the results that
-are read outside these trees.
+"""The key of the trees that a function replaces, and the indices of the results that it returns.
+
+Different functions have different shapes.
 """
 
 
@@ -89,8 +90,8 @@ class Outline:
         The functions are added to ``outlined``. If nothing is repeated, the result is None. A block is a
         system of equations that a loop solves. ``owners`` maps each unknown to the number of its block.
         """
-        # The level of a value is the number of the last block on whose unknowns the value depends. The level
-        # of a call is the largest level of its inputs.
+        # A value may depend on the unknowns of several blocks. The largest number of these blocks is the
+        # level of the value. The level of a call is the largest level of its inputs.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -105,7 +106,8 @@ class Outline:
                 # call is counted once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # The next round omits the trees of functions that have fewer than two calls.
+            # If every function has at least two calls, this round is the last. Otherwise the next round omits
+            # the trees of the functions with fewer calls.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
@@ -157,8 +159,8 @@ class Outline:
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, with one group for each function."""
-        # After a tree is removed, the step may read other results of the remaining trees. Therefore the loop
-        # repeats.
+        # If a tree is removed, the step may read other results of the remaining trees than before. Therefore
+        # the choice is repeated with the remaining trees.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
@@ -208,16 +210,15 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one call can compute the results ``read`` of a tree.
 
-        One call is sufficient if the call and all these results belong to the same loop, and no input of the
-        call depends on a result.
+        The call and the results must be computed in the same loop. No input of the call may depend on a
+        result.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # ``deepest`` is the level of the call: the number of the last block on whose unknowns the inputs
-        # depend. A result with a lower level does not depend on these unknowns, so the loop of this block
-        # must not compute the result.
+        # ``deepest`` is the level of the call, so the loop of this block executes the call. A result with a
+        # lower level does not depend on the unknowns of this block. The loop must not compute such a result.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Nodes are numbered in the order of their creation. An input that was created after a result may
-        # depend on this result. But a call cannot read its own results.
+        # A call cannot read its own results, so no input may depend on a result. Nodes are numbered in the
+        # order of their creation. If a result is newer than all inputs, no input depends on it.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

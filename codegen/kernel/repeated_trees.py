@@ -1,9 +1,9 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one assignment reads the results of another assignment, one function can execute both assignments.
-They can then be joined into one tree. Pairs of trees that occur often are joined into larger trees. The pairs
-that save the most lines of code are joined first. Trees with equal keys have the same operations, but may
-have different operands and coefficients.
+If only one assignment reads the results of another assignment, both assignments can be joined into one tree.
+Pairs of trees that occur often are joined into larger trees. The pairs that save the most lines of code are
+joined first. Each tree has a key. Trees with equal keys have the same operations, but may have different
+operands and coefficients.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined. The first three cost almost nothing. The others are exact flows of
-parts of the vector field.
+"""Operations that are never outlined. ``Advance``, ``Zero`` and ``Identity`` cost almost nothing. The others
+are exact flows of parts of the vector field.
 """
 
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-This number converts operations to lines. The files in ``generated/`` are the same for the values 2, 3 and 5
-(``orderconds regenerate --check``). Longer steps depend on the value. For example, the step of cg:cg5 on
-dipole has 471, 454 and 394 assignments for the values 2, 3 and 5.
+This number converts operations to lines. The values 2, 3 and 5 give the same files in ``generated/``. Longer
+steps depend on the value. For example, the values 2, 3 and 5 give 471, 454 and 394 assignments in the step of
+cg:cg5 on dipole.
 """
 
 Values = tuple[Expr, ...]
@@ -115,16 +115,16 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """If an assignment multiplies d v by c, replace it by the product of c d and v.
+        """Replace a multiple of a multiple by one product: c (d v) becomes (c d) v.
 
         Here c and d are coefficients, and v is a variable. Other assignments do not change.
         """
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # For example, a stage may compute h xi from a vector xi, and h xi/2 from h xi. If another assignment
-        # also reads h xi, then h xi has two readers and cannot be joined with either. Therefore h xi/2 is
-        # computed from xi.
+        # An assignment whose result has several readers cannot be joined with a reader. For example, a step
+        # reads h xi, and also computes h xi/2 from h xi. If it computes h xi/2 from xi, then h xi has one
+        # reader less.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -148,13 +148,13 @@ class Trees:
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 # If only one assignment reads the results of a tree, this tree can be joined with the tree of
-                # the assignment. The function of the joined tree does not return these results.
+                # the assignment.
                 user = self._only_user(i)
                 # ``owner`` contains only assignments that may be joined.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # Two pairs with equal trees can be connected in different ways. Therefore the key of a
-                    # pair contains the key of the joined tree.
+                    # The keys of two trees do not determine how these trees are connected. Therefore the key
+                    # of the pair also contains the key of the joined tree.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -184,8 +184,8 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # A tree of the pair may also occur outside these pairs. Then its own function remains, and the
-        # function of the joined tree repeats the lines.
+        # One of the two trees may also occur outside these pairs. Then the function of this tree is still
+        # needed, and the function of the joined tree contains its lines again.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one, which saves about three lines.
         return k * 3 - copies
@@ -254,7 +254,7 @@ class Trees:
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
             for v in self.executions[i].assign.targets:
-                # The first result has the position -1, so the results are counted from 1.
+                # The first result has the position -1, so its number is 1.
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
@@ -264,8 +264,8 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # The operation of a sum contains its coefficients. The key must not contain their values, so None
-            # replaces this operation. The kind distinguishes sums in the algebra from sums in its dual.
+            # The key must not contain the values of coefficients. The operation of a sum contains these
+            # values, so it is omitted. The kind distinguishes sums in the algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -315,8 +315,8 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     Equal coefficients have equal labels. The coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
-    # A sum needs fewer products if some of its coefficients are 1 or equal to each other. Therefore the key
-    # records these coefficients.
+    # A coefficient 1 needs no product, and terms with equal coefficients need only one product. Therefore the
+    # key records which coefficients are 1 and which are equal.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

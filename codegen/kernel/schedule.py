@@ -226,15 +226,16 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """Return the expressions of a statement that can share calls with other statements."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A ``Start`` statement may be skipped at run time, so other statements cannot read its calls. The body
-    # of a loop has its own calls.
+    # A ``Start`` statement may be skipped at run time, so other statements cannot use the results of its
+    # calls. The calls in the body of a loop are not shared with the statements outside the loop.
     return statement.starts if isinstance(statement, Loop) else []
 
 
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The body has its own calls of Stumpff functions, because their arguments depend on the unknowns.
+    # The arguments of the Stumpff functions in the body depend on the unknowns. Therefore these functions are
+    # called in the body.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -318,12 +319,11 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is false, the assignment of a result of a call is omitted, because the call names its
-        results.
+        A result of a call already has a name. If ``kept`` is false, no assignment is added for such a result.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # If ``value`` is a result of a call, later expressions use its symbol in place of ``let.name``.
+        # A result of a call already has a name. Later expressions use this name in place of ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -369,7 +369,7 @@ class _Scope:
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # The name replaces c_k of this argument in later expressions, so no new call is needed.
+            # In later expressions, ``name`` replaces the function value c_k of the argument.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -415,7 +415,8 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # The key of the counter contains a space, so no name of a kernel is equal to this key.
+            # ``taken`` also contains a counter for each stem. The key of a counter contains a space, so it
+            # differs from all names.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:

@@ -41,7 +41,7 @@ class SharedArguments(ExprDomain):
         """Return the expression of a function call. Equal arguments of a Stumpff function give the same
         expression.
         """
-        # Only arguments of Stumpff functions are compared, because these functions need most of the time.
+        # Only arguments of Stumpff functions are compared, because these functions are expensive.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)

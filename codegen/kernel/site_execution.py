@@ -23,7 +23,7 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Each sweep that needs a result computes the result again. Only the sums that
+"""Cheap operations. Their results are computed again in each sweep that needs them. Only the sums that
 :mod:`codegen.kernel.site_plan` selects are stored.
 """
 
@@ -59,8 +59,8 @@ class Execution:
     """The symbolic execution of one sweep.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
-    - ``given`` are the variables of the old state.
-    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
+    - ``given`` contains the variables of the state at the beginning of the step.
+    - ``coupled`` contains indices of blocks of the state. The field reads these blocks at neighbours.
     - ``totals`` are the names of sums over all sites.
     """
 
@@ -166,7 +166,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # It is known only at run time which neighbours exist, so the numbers in ``exists`` remain symbols.
+        # The compiler does not know which neighbours exist, so the numbers in ``EXISTS`` remain symbols.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # A ghost is a value that replaces the value of a neighbour outside the lattice.
@@ -188,8 +188,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A variable outside the old state needs new symbols. The ghosts of the old state may depend on time.
-        # If a symbol in ``loaded`` already has a different ghost, new symbols are needed, too.
+        # A symbol has only one ghost. The ghosts of the old state may differ between stages, because they may
+        # depend on time. Then the old state needs new symbols. Other variables always get new symbols.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -201,7 +201,8 @@ class Execution:
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
         """Return the sweep that stores the variables in ``content``.
 
-        ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms.
+        ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the term of each
+        site.
         """
         # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
@@ -214,7 +215,8 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The order of ``loads`` is fixed. The order of ``around`` is not, because ``read`` is a set.
+            # ``around`` has no fixed order, because ``read`` is a set. Therefore the ghosts have the order of
+            # ``loads``.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The formulas of the ghosts may read further values at the site. These values are loaded, too.

@@ -38,7 +38,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # The program only lists the flows for reports. The kernel is built from ``word``.
+    # The kernel is built from ``word``. The program is a list of the flows for reports.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -82,7 +82,8 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
-        # ``roots`` contains ``dim`` numbers for each site: its generator, which is constant along the flow.
+        # For each site, ``roots`` contains the ``dim`` components of an element of the Lie algebra. This
+        # element is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}

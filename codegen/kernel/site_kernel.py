@@ -1,8 +1,8 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
-evaluated, and the next sweep evaluates the field. Some sums of vectors are stored in place of one of their
-terms. All other sums are computed again in each sweep that needs them.
+evaluated, and the next sweep evaluates the field. To save memory, some sums of vectors replace one of their
+terms in the workspace. All other sums are computed again in each sweep that needs them.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 class SiteMethod:
     """A compiled method for a lattice.
 
-    ``problem`` is the problem of one site with fixed neighbours. For a splitting method, ``problem`` is the
-    scene. ``lowered`` is the program of a step before the compiler passes, and ``program`` is the program
-    after the passes. ``trace`` contains a report of each pass that changed the program. ``kernel`` contains
-    the sweeps of the step.
+    ``problem`` is the problem of one site with fixed neighbours. For a splitting method, it is the problem of
+    the whole lattice. ``lowered`` is the program of a step before the compiler passes, and ``program`` is the
+    program after the passes. ``trace`` contains a report of each pass that changed the program. ``kernel``
+    contains the sweeps of the step.
     """
 
     problem: Problem
@@ -57,11 +57,11 @@ class SiteMethod:
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
     """Compile ``method`` for the lattice ``scene``.
 
-    The compiler passes use the problem of one site with fixed neighbours. If ``newton`` is true, Newton's
-    method solves the implicit equations, and the lattice must be one-dimensional.
+    If ``newton`` is true, Newton's method solves the implicit equations. The lattice must then be
+    one-dimensional.
 
     A step may evaluate the field, the energy and its derivatives, or the exact flows of a splitting. Taylor's
-    method is permitted, too. MethodError is raised for a step that evaluates other formulas of the scene.
+    method is permitted, too. If a step evaluates other formulas of the scene, MethodError is raised.
     """
     lowering = lowering_of(method.family)
     # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
@@ -77,7 +77,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
-    # Operations that evaluate no formulas of the scene act on one site alone, so they are permitted.
+    # An operation that evaluates no formulas of the scene reads no neighbours, so it is permitted.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"
@@ -90,8 +90,9 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
 def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Kernel:
     """Return the kernel of a step program.
 
-    ``problem`` is the problem of one site (:func:`codegen.scene.site_scene.with_frozen_neighbours`). If
-    ``newton`` is true, Newton's method solves the implicit equations.
+    ``problem`` describes one site with fixed neighbours
+    (:func:`codegen.scene.site_scene.with_frozen_neighbours`). If ``newton`` is true, Newton's method solves
+    the implicit equations.
     """
     assert problem.sites is not None
     return _kernel(program, problem, Planner(program, problem, problem.sites, newton=newton).step())

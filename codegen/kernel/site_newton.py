@@ -34,13 +34,13 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """Differentiates the images g of one system of equations u = g. The derivatives are taken with respect to
-    the unknowns of a site and of its left and right neighbours.
+    """Differentiates the images g(u) of one system of equations u = g(u). The derivatives are taken with
+    respect to the unknowns of a site and of its left and right neighbours.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
-    - ``given`` are the variables of the old state.
+    - ``given`` contains the variables of the state at the beginning of the step.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
+    - ``coupled`` contains indices of blocks of the state. The field reads these blocks at neighbours.
     """
 
     problem: Problem
@@ -58,7 +58,7 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains the numbers ``size``, ``residual``, ``border`` and ``matrix`` of the result.
+        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.
@@ -127,7 +127,7 @@ class Linearisation:
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
-            # The iteration does not change values from outside the equations. Expensive values are read from
+            # Values that are computed before the iteration stay constant. Expensive values are read from
             # memory, and cheap values are computed again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
@@ -156,9 +156,9 @@ class Linearisation:
         return tuple(map(self.domain.space.sym, names))
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
-        """Return the field at a stage. The field reads this stage at the site and at its neighbours."""
-        # The field at a neighbour reads sites at distance 2. With such terms the matrix is not
-        # block-tridiagonal.
+        """Return the field at a site. The field reads the stage values of the site and of its neighbours."""
+        # The field at a neighbour reads sites at distance 2. If the images contained this field, the matrix
+        # would not be block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
