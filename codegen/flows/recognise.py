@@ -3,7 +3,7 @@
 For each kind of flow, a function examines the formula of a part. There are three results:
 
 - If the part has a flow of this kind, the function returns the part with its flow.
-- If another kind must be tried, the function returns None.
+- If the part has no flow of this kind, but another kind is possible, the function returns None.
 - If no kind of exact flow is possible, the function returns a part without a flow. The attribute ``reason``
   of this part says why.
 
@@ -11,9 +11,10 @@ These are the kinds of flow:
 
 - The flow of a potential V(q) is a kick.
 - On an abelian group such as R^n, the flow of a function of the momentum is a drift.
-- On R^n, some quadratic functions of the position q and the momentum have a linear flow.
-- On non-abelian groups, a quadratic function of the momentum is split into rotations
-  (:mod:`codegen.flows.top`).
+- On R^n, the flow of a quadratic function of the position and the momentum is linear. The closed form is
+  known for some of these functions (:mod:`codegen.flows.linear`).
+- On non-abelian groups, a quadratic function of the momentum is split into terms. The flows of the terms are
+  rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If the formula depends on the time, return a part without an exact flow. Otherwise return None."""
+    """If the formula contains the time, return a :class:`Part` without summands. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -38,9 +39,9 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The functions that examine the formula of a part.
+"""The functions that look for the exact flow of a part of a Hamiltonian.
 
-They are called in this order until a result is not None.
+The functions are called in this order until one of them returns a :class:`Part`.
 """
 
 

@@ -1,6 +1,6 @@
 """Exact flows of the parts of a lattice problem. A lattice problem is given by a field or a Hamiltonian.
 
-The field or the Hamiltonian is a sum of parts. A flow changes the states of all sites together.
+The field or the Hamiltonian is a sum of parts. The flow of a part acts on the whole lattice.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of two sets of pairs of neighbours along an axis.
+"""The pairs of neighbours along an axis are divided into two sets with these names.
 
 A pair is "even" if the index of its first site is even. A pair is "odd" if the index of its first site is
 odd.
@@ -36,8 +36,8 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
 
-    If the part couples neighbouring sites, the flow couples only the pairs of one set. ``colour`` is the
-    index of this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
+    If the part couples neighbouring sites, only the pairs of one set interact. ``colour`` is the index of
+    this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -57,18 +57,18 @@ class SiteFlow(Flow):
 
     def text(self) -> str:
         """Return a short description of the flow."""
-        return "exp(tau x) for a constant element x of the Lie algebra"
+        return "the action of exp(tau x) for a constant element x of the Lie algebra"
 
 
 def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice scene and their exact flows.
 
-    For a Hamiltonian lattice, these are the parts of the Hamiltonian. For another lattice, these are the
-    parts of the field:
+    For a Hamiltonian lattice, the list contains the parts of the Hamiltonian. All potentials are added to
+    one part. For another lattice, the list contains the parts of the field:
 
     - The parts that couple no sites are first in the list.
     - Each part that couples neighbours along an axis is split into two parts, one for the even pairs and one
-      for the odd pairs (:data:`COLOURS`). The flows of these two parts do not commute.
+      for the odd pairs (:data:`COLOURS`), because the flows of pairs with a common site do not commute.
     """
     assert scene.sites is not None
     if scene.paired:
@@ -94,8 +94,7 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick depends on the forces and on the prescribed states outside the lattice. If one of them depends
-    # on the time, the kick depends on the time.
+    # If the force or a prescribed state outside the lattice depends on time, the kick depends on time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -16,10 +16,10 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """A flow that the user gives in the scene. ``formulas`` are the formulas for (q, mu) after the time tau.
+    """The flow of a part of the Hamiltonian, given by the user's formulas for (q, mu) after the time tau.
 
-    When the scene is defined, the time derivatives of the formulas are compared with the field of the part.
-    If they differ, :class:`codegen.errors.SceneError` is raised.
+    When the scene is defined, the formulas are checked. If the formulas do not satisfy the equations of
+    motion of this part, :class:`codegen.errors.SceneError` is raised.
     """
 
     formulas: tuple[Expr, ...]
@@ -34,7 +34,7 @@ class Stated(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError. The scene gives formulas for the flow, but not for the field."""
+        """Raise ArithmeticError, because the scene gives no formulas for the field."""
         raise ArithmeticError("the scene gives formulas for the flow of the part, but none for the field")
 
     def text(self) -> str:
@@ -43,9 +43,9 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part that ``formula`` describes, with the flow from the scene.
+    """If the scene gives the flow of this part of the Hamiltonian, return the part with this flow.
 
-    If the scene gives no flow for the part, return None.
+    Otherwise return None.
     """
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

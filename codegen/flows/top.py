@@ -1,4 +1,4 @@
-"""Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
+"""Tops: quadratic functions of the momentum, split into terms whose flows are rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Let B be a constant symmetric
 matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
@@ -9,8 +9,8 @@ numbers, and e_k are fixed vectors.
   rotation commutes with all turns.
 - If the adjoint action does not preserve the dot product, c is 0.
 
-If there is at most one turn, all flows commute. Their composition is the exact flow of the function. An
-example is a symmetric top. The turns of an asymmetric top do not commute with each other.
+If there is only one turn, the composition of the turn and the rotation about the momentum is the exact flow
+of the function. An example is a symmetric top. The turns of an asymmetric top do not commute with each other.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Split a quadratic function of the momentum into rotations.
+    """Split a quadratic function of the momentum into terms whose flows are rotations.
 
     If the group is abelian, the result is None. If ``formula`` is not a quadratic function of the momentum
-    with rational coefficients, the result is a part without a flow.
+    with rational coefficients, the result is a :class:`Part` without summands.
     """
     if formula.problem.group.abelian:
         return None
@@ -86,7 +86,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
         number = str(k + 1) if len(turns) > 1 else ""
         flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
     if mean:
-        # The rotation about the momentum and the first turn commute. These two flows form one summand.
+        # The rotation about the momentum commutes with all turns. The first summand contains this rotation.
         flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
         flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
     return [Summand(tuple(f)) for f in flows]
@@ -101,9 +101,9 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Return the turns for the sum of a quadratic form and w.P. Here P is the momentum.
+    """Add w.P to the Hamiltonian of the turns, and return the new turns. Here P is the momentum.
 
-    The list ``turns`` contains the turns for the quadratic form. If the axis of a turn is parallel to the
+    If the axis of a turn is parallel to the
     vector w, w.P changes the offset of this turn. Otherwise a turn about w is appended.
     """
     for k, turn in enumerate(turns):

@@ -72,9 +72,9 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return the angular speed: ``rate`` times the dot product of ``axis`` and mu, plus ``offset``.
+        """Return the angular speed: ``rate`` times the dot product of the axis and mu, plus ``offset``.
 
-        The vectors ``axis`` and mu are given in the space frame.
+        The argument ``axis`` is the axis in the space frame, computed by :meth:`_axis`.
         """
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)

@@ -43,8 +43,5 @@ class Abelian(LeftTranslation):
         return mu
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return the derivative of g exp(eps x) at eps = 0.
-
-        Because the group is abelian, g exp(eps x) is equal to exp(eps x) g.
-        """
+        """Return the derivative of g exp(eps x) = exp(eps x) g at eps = 0."""
         return self.velocity(d, x, g)

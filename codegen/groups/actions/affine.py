@@ -1,4 +1,4 @@
-"""Affine maps of a vector space. The matrix of an affine map has the last row (0, ..., 0, 1)."""
+"""The action of affine maps z -> A z + b on a vector space."""
 
 from __future__ import annotations
 

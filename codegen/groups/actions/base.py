@@ -68,7 +68,7 @@ class Action(ABC):
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return x.y, the derivative of exp(eps x).y at eps = 0. Here x is an element of the algebra.
 
-        The result contains the derivative of each coordinate of y.
+        The result has one entry for each coordinate of y.
         """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
@@ -76,7 +76,7 @@ class Action(ABC):
 
         If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
 
-        By default, the result is y. If the orbit is an open subset of the manifold, this is sufficient,
+        By default, the result is y. If the orbit is an open subset of the manifold, no projection is needed,
         because a small error does not move a point out of the orbit.
         """
         return y

@@ -92,7 +92,7 @@ class FactorwiseAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of y1, then the equations of y2, and so on, for y = (y1, y2, ...)."""
+        """Return the equations of the manifold of y1, then the equations of the manifold of y2, and so on."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 
