@@ -120,15 +120,16 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each system of implicit equations. The variables use the
-        first ``count`` rows of the workspace.
+        """Return the step with a Newton matrix for each system of implicit equations.
+
+        ``count`` is the number of rows of the workspace that store variables.
 
         MethodError is raised if the equations contain sums over all sites.
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # The next rows of the workspace contain the residuals, the border (for periodic chains only), and the
-        # matrix. :class:`codegen.ir.site_step.SiteNewton` defines the border.
+        # In the workspace, the residuals, the border and the matrix follow the variables. Only periodic
+        # chains have a border (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
@@ -190,12 +191,12 @@ class Planner:
                 # further sweep, after all sites have read the old values.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
-            # The solution satisfies u = g(u), so later statements read the unknown u in place of the image.
+            # The solution satisfies u = g(u), so later statements read u in place of g(u).
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return ``solve`` with unknowns in place of the images of earlier equations."""
+        """Return ``solve`` with each image g(u) of earlier equations replaced by the unknown u."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -207,7 +208,7 @@ class Planner:
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
         # If the field reads a point at neighbours, an earlier sweep must store the point. Unknowns and the
-        # old state need no further sweep, because they are always stored.
+        # old state are always stored.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -235,9 +236,10 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        If one sweep computes a sum and one of its terms, and no other assignment reads this term, the sum is
-        stored in place of the term. Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one
-        element of the Lie algebra for each site. In programs with implicit equations no sums are stored.
+        Suppose that one sweep computes both a sum and a term of the sum. If only the sum reads this term, the
+        sum is stored and the term is not. For example, a 2N scheme (a low-storage Runge-Kutta method) then
+        stores only one element of the Lie algebra for each site. In programs with implicit equations, no sums
+        are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -296,8 +298,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # The last sweep that reads a value may overwrite the value. If this sweep reads the value at
-            # neighbours, other sites still need the value, and only the next sweep may overwrite it.
+            # If each site reads only its own value, the last sweep that reads the value may overwrite the
+            # value. If neighbours also read the value, only the next sweep may overwrite the value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]

@@ -2,8 +2,8 @@
 
 The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. Here g
 approximates the differential of the energy, and eta is the displacement of a step. The energies before and
-after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its term
-of e, and then the terms are added. The terms are small, so e has a small rounding error.
+after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its own
+term of e. These terms are small, so their sum e has a small rounding error.
 
 If the equations are not Hamilton's equations, the field f is expressed by the bivector
 (gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. Three further sums over all sites
@@ -59,7 +59,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``paired`` is a linear prediction of the change of the energy at a site. The excess is its error.
+        # ``paired`` approximates the change of the energy at a site. The excess is the approximation error.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

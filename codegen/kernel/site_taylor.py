@@ -116,22 +116,23 @@ class TaylorSweeps:
     ) -> None:
         """Record the loads of one Taylor coefficient of a site and of its neighbours.
 
-        For neighbours outside the lattice, formulas for the coefficient are recorded, too.
+        Record formulas for the coefficient of neighbours outside the lattice.
         """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
-                    # None represents a term that is identically zero.
+                    # If a term is identically zero, ``term`` returns None.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients ``terms``, with None replaced by the number zero if sweeps must load zeros.
+        """Return the coefficients ``terms``, if necessary with the number zero in place of None.
 
-        A coefficient that is zero at all sites is represented by None, and no sweep loads it. The coefficient
-        may still differ from zero at neighbours outside the lattice. In this case, sweeps must load it.
+        None represents a coefficient that is zero at all sites. Sweeps do not load such a coefficient.
+        Outside the lattice, the coefficient may differ from zero. Then sweeps must load the coefficient, and
+        zero replaces None.
         """
         if degree == self.degree:
             return terms
@@ -142,8 +143,9 @@ class TaylorSweeps:
     def _follows(self, ghost: Expr, k: int) -> bool:
         """Return True if a Taylor coefficient that is zero at all sites is also zero outside the lattice.
 
-        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. The result is True if
-        the formula is a constant or coordinate k of the site.
+        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. A constant formula has
+        no coefficients of degree 1 or higher. Coordinate k of the site has the coefficients of the site. For
+        all other formulas, the result is False.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -236,12 +238,12 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression. The count stops above :data:`SHORT`."""
+        """Return the number of operations in an expression, or a number above SHORT if there are more."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
-                # Above the limit, the exact number does not matter.
+                # The exact number does not matter if it is above SHORT.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -250,14 +252,14 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. The last outputs of a sweep are the expressions that later sweeps read."""
+        """Return the sweeps. Sweep n outputs ``ends[n]`` and the expressions in ``stored`` with writer n."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # A site reads only its own stored values. Therefore the last sweep that reads a row may overwrite
-            # the row.
+            # Neighbours do not read these rows. Therefore the last sweep that reads a row may overwrite the
+            # row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps. The values that this sweep stores are
@@ -276,12 +278,15 @@ class TaylorSweeps:
         return listed
 
     def _replaced(self, roots: Sequence[Expr], known: dict[int, Expr]) -> list[Expr]:
-        """Return ``roots`` with stored expressions replaced by symbols. The keys of ``known`` are ids."""
+        """Return ``roots`` with symbols in place of stored expressions.
+
+        ``known`` maps the id of each stored expression to a symbol.
+        """
         changed = dict(known)
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # Simplification could change rounding errors, so the node is not simplified.
+                # ``_make`` does not simplify the node, because simplification could change rounding errors.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 

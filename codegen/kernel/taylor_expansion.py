@@ -23,10 +23,10 @@ from codegen.scene.problem import TIME, Problem
 UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
-The number is estimated as the number of products times P^2, where P is the degree of the polynomial. The
+For a polynomial of degree P, the estimated number of operations is P^2 for each product in the field. The
 instruction cache of most processors has 32 KB, enough for about 4000 operations. With 18 products
 (heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products,
-it takes 1.5 us with unrolled code and 0.82 us with a loop.
+the step takes 1.5 us with unrolled code and 0.82 us with a loop.
 """
 
 
@@ -49,9 +49,9 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Add kernels that compute the Taylor coefficients of the solution to ``kernel``, and return the result.
+    """Return ``kernel`` with additional kernels that compute the Taylor coefficients of the solution.
 
-    The emitted code of this kernel has an additional function for runs with step-size control.
+    The emitted code has an additional function for runs with step-size control.
     """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
@@ -92,7 +92,7 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # Step-size control computes h from the coefficients. Therefore the coefficients contain no factors h^n.
+    # Step-size control computes h from the coefficients. Therefore the coefficients are computed for h = 1.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     # A coefficient that is identically zero is None in ``rows``. The outputs are sorted by degree.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]

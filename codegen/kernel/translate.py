@@ -51,8 +51,8 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path, which is the longest chain of dependent operations.
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED forms the products of factors that are constant in a run, such as the step size.
-- ORDERED sorts the assignments by the estimated time at which a processor has computed their values.
+- COMBINED groups the factors that are constant in a run, such as the step size.
+- ORDERED sorts the assignments by the estimated time at which each value is available.
 - SHORTENED includes COMBINED and ORDERED, and rewrites the longest chains
   (:mod:`codegen.kernel.critical_path`).
 """
@@ -70,14 +70,14 @@ def to_kernel(
     """Return the kernel of a program. ``scene`` is the problem of the program
     (:func:`codegen.lower.problem_for`).
 
-    - ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
-      blocks are solved by fixed-point iteration.
+    - ``solvers`` maps labels of blocks of implicit equations to :data:`codegen.ir.kernel.NEWTON` or
+      SIMPLIFIED_NEWTON. All other blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
     - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
       without implicit equations.
-    - ``whole`` is used if the program stores the momentum in the body frame, but the emitted code does not.
-      If ``whole`` is true, each step transforms the momentum. Otherwise a run transforms the momentum at the
-      beginning and at the end (:mod:`codegen.kernel.carried_momentum`).
+    - ``whole`` is used if only the program stores the momentum in the body frame. If ``whole`` is true, each
+      step transforms the momentum. Otherwise a run transforms the momentum at the beginning and at the end
+      (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
@@ -156,12 +156,12 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` does not expand the arguments, so the results can share the arguments with other
-            # expressions.
+            # ``gathered`` combines the constants of the results. The arguments remain unchanged, so that
+            # other expressions can share the arguments.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # If an operation has a time argument, its results may also depend on the run-time inputs at this
-        # time. Such an operation is not outlined, because an outlined function reads only its arguments.
+        # The results of an operation with a time argument may depend on run-time inputs. Such an operation is
+        # not outlined, because an outlined function reads only its arguments.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # The current block is not in the list yet, so its index is the length of the list.
         place = len(self.blocks) if self.inside else -1
@@ -177,7 +177,7 @@ class _Translation:
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
-            # ``given`` contains the coordinates of this block, followed by those of the next blocks.
+            # ``given`` contains the coordinates of this block, and then the coordinates of the next blocks.
             starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
         for var in self.program.inputs:
             self.env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
@@ -192,8 +192,8 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # If ``variations`` is given, :func:`_varied` needs the images g(u) of the equations u = g(u).
-        # Otherwise the residuals of the equations may replace the images.
+        # With variations, :func:`_varied` needs the images g(u) of the equations u = g(u). Without
+        # variations, Newton's method can use residuals in place of the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # :func:`compared` has added Newton's matrix to a block with residuals.
@@ -207,8 +207,7 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` uses the length of ``blocks`` as the index of the current block. Therefore a block is
-        # appended after its execution.
+        # ``run`` requires that ``blocks`` does not yet contain the current block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -258,8 +257,7 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of a block contain the solution of this block. Therefore these
-        # equations follow the block.
+        # The equations for the variations contain the solution of the block. Therefore the block comes first.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -301,16 +299,16 @@ class _Translation:
 
         Repeated computations become functions if this makes the code much shorter.
         """
-        # Outlining replaces ``schedule``, so it may use the names of ``schedule`` again. It must not use the
-        # names in ``before``.
+        # Outlining replaces ``schedule``. The names in ``schedule`` are then free, but the names in
+        # ``before`` are not.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size. Only long code is outlined.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining looks for the results of operations in the expressions. COMBINED and SHORTENED have
-        # rewritten the expressions, so outlining would not find these results.
+        # Outlining searches the expressions for the results of operations. COMBINED and SHORTENED rewrite
+        # these results, so outlining would find nothing.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -324,7 +322,7 @@ class _Translation:
 
 
 def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
-    """Return the number of assignments. Assignments in loops, matrices and functions count, too."""
+    """Return the number of assignments, including the assignments in loops and in functions."""
     total = 0
     for statement in body:
         if isinstance(statement, Let):
@@ -351,8 +349,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Values in ``kept`` are removed if no expression in ``flat`` reads them. Therefore outlining creates no
-    # functions for unused values.
+    # Outlining must not create functions for unused values. Therefore a value in ``kept`` is removed if no
+    # expression in ``flat`` reads the value.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # The expressions of all blocks are in one list. Therefore outlining also finds computations that are

@@ -24,7 +24,8 @@ class Variations:
     """Describes the variation of each part of a state.
 
     Each part is a pair (group, symbols). ``symbols`` are the coordinates of the part. If the group is None,
-    each coordinate is varied independently. Otherwise an element of the Lie algebra varies the part.
+    the variation has one component for each coordinate. Otherwise the variation is an element of the Lie
+    algebra.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
@@ -78,8 +79,8 @@ class Variations:
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of the new state.
 
-        ``state`` contains the coordinates of the new state. ``rates`` contains their derivatives in the
-        direction of the variation of the old state.
+        ``state`` contains the coordinates of the new state. ``rates`` contains the directional derivative of
+        each coordinate along the variation of the old state.
         """
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:

@@ -31,7 +31,8 @@ def ambient_field(scene: Problem) -> Evaluate:
 def ball(number: Number) -> arb:
     """Return an exact number as a ball.
 
-    A rational number is rounded to the working precision. An irrational number has 16 additional bits.
+    A rational number is rounded to the working precision. An irrational number has 16 additional
+    bits of precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

@@ -8,9 +8,9 @@ measurement counts the bytes that all sweeps of a step read and write
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or writes is counted once. Before the processor writes to a cache line, it
-reads this line. This additional read is not counted. For each number that the triad writes, it reads two
-numbers. A step can read more than two numbers for each number that it writes. Then a smaller fraction of the
-memory traffic is omitted from the count, and the bandwidth of the step can exceed that of the triad.
+reads this line. This additional read is not counted. For the triad, the count omits a quarter of the memory
+traffic. If a step reads more than two numbers for each number that it writes, the count omits a smaller
+fraction. Then the bandwidth of the step can exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ At most ATTEMPTS attempts are made. The first step can fail if the initial state
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The sweeps for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
+"""The iterations for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
 
 A lattice of dimension d = 1 or 2 has SIDES[d] sites along each axis. In higher dimensions, the lattice has 4
 sites along each axis.
@@ -107,7 +107,7 @@ class Bandwidth:
     - ``ns``: the CPU time for each site and step in nanoseconds.
     - ``moved``: the number of bytes that are read and written for each site and step.
     - ``triad``: the bandwidth of the triad loop in GB/s, where 1 GB is 10^9 bytes.
-    - ``sweeps``: for each system of implicit equations, the mean number of sweeps over the lattice in a step.
+    - ``sweeps``: for each system of implicit equations, the mean number of iterations in a step.
     """
 
     shape: tuple[int, ...]
@@ -135,10 +135,7 @@ class Bandwidth:
         first = f"{self.ns:.1f} ns for each site and step, by one thread on {sites} sites"
         lines = [first, f"the arrays take {arrays:.1f} MB, the last-level cache has {cache:.1f} MB"]
         if self.sweeps:
-            lines.append(
-                "mean number of sweeps over the lattice in a step: "
-                + ", ".join(f"{n:.1f}" for n in self.sweeps)
-            )
+            lines.append("mean number of iterations in a step: " + ", ".join(f"{n:.1f}" for n in self.sweeps))
         of = f"{self.fraction:.2f} of the bandwidth of a triad loop ({self.triad:.1f} GB/s)"
         return [*lines, f"{self.rate:.1f} GB/s, which is {of}"]
 
@@ -215,13 +212,13 @@ def measure(
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size for the measurement.
 
-    For an implicit method, the step size is the time span of the scene divided by :data:`PARTS`. For an
-    explicit method, the step size is smaller by the factor :data:`SHORTER`.
+    The step size is the time span of the scene divided by :data:`PARTS`. For an explicit method, the step
+    size is also divided by :data:`SHORTER`.
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If a rotation angle exceeds about one radian, the emitted code repeats the computation in a slow loop.
-    # The division by SHORTER makes the rotation angles smaller.
+    # A small step size gives small rotation angles. For angles above about one radian, the emitted code
+    # repeats the computation in a slow loop.
     return h if step.blocks else h / SHORTER
 
 
@@ -273,8 +270,7 @@ class _Runs:
         """Make ``repeated`` equal runs of ``steps`` steps. Return a status and a CPU time in seconds.
 
         If all runs succeed, the CPU time is the time for one site and one step in the fastest run. If a run
-        fails, no further runs are made. The method returns the status of the failed run and a meaningless CPU
-        time.
+        fails, the method returns the status of this run and a meaningless CPU time.
         """
         import numpy as np
 
@@ -318,11 +314,11 @@ class _Counting(Machine):
 
 
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
-    """Return the mean number of sweeps over the lattice in a step, for each system of implicit equations.
+    """Return the mean number of iterations in a step, for each system of implicit equations.
 
-    Emitted modules do not report the number of sweeps. Therefore :data:`COUNTED_STEPS` steps are executed in
-    Python on a small lattice. For each system, the calls of one function are counted. Each sweep calls this
-    function once.
+    Emitted modules do not report the number of iterations. Therefore :data:`COUNTED_STEPS` steps are executed
+    in Python on a small lattice. Each iteration calls the function of its first sweep once. The calls of this
+    function are counted.
     """
     if not step.blocks:
         return ()

@@ -40,14 +40,14 @@ REPORT_HAMILTONIANS = {
 }
 """The default methods of the report with equal steps, and their orders.
 
-REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. If a
-method has another order for the scene of the report, the report omits this method.
+REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. The order
+of a method can depend on the scene. If the order differs from the listed order, the report omits the method.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The default methods of the report with step-size control.
 
-A figure has only eight colours, and REPORT_HAMILTONIANS contains seven methods. Therefore the report of a
+A figure has only eight colours. REPORT_HAMILTONIANS needs seven of these colours. Therefore the report of a
 Hamiltonian scene uses only the first method of this list.
 """
 
@@ -110,7 +110,7 @@ A method has the same colour and the same marker in all figures.
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods. If ``names`` is empty, return the default methods for the scene.
 
-    The function :func:`codegen.method.parse` reads the names and raises the errors for unknown names.
+    For unknown names, the errors of :func:`codegen.method.parse` are raised.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     return tuple(method_for(scene, name) for name in (names or defaults))

@@ -2,12 +2,12 @@
 
 A state consists of one or several components, such as a group element and a momentum. For each
 component, the norm of the difference from the reference is computed. The error norm is the sum of the norms.
-If a component is a group element given by a matrix, its norm is the spectral norm. Otherwise it is the
-Euclidean norm.
+For group elements given by square matrices, the spectral norm is used. For all other components, the
+Euclidean norm is used.
 
 For example, a state may consist of a momentum mu and a rotation matrix g. Let mu_ref and g_ref be the
-references. The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On symplectic
-integration in Lie groups and manifolds*, Fig. 3.2).
+reference values. The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On
+symplectic integration in Lie groups and manifolds*, Fig. 3.2).
 """
 
 from __future__ import annotations

@@ -21,8 +21,7 @@ TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """The tolerances of the runs, from loose to tight.
 
 If the error estimate of a method has a low order, the method takes many steps even with a loose tolerance.
-Therefore this list begins with looser tolerances than :data:`codegen.lab.peers.TOLERANCES`, the list for
-integrators of other libraries.
+Therefore this list begins with looser tolerances than the list :data:`codegen.lab.peers.TOLERANCES`.
 """
 
 
@@ -45,9 +44,9 @@ class AdaptiveCandidate(EmittedCandidate):
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if the next run would take too long, or if rounding errors dominate.
 
-        ``rows`` contains the results of the previous runs. If the error of the last run exceeds both 1 and
-        the norm of the reference solution, the result is False. A smaller tolerance may then give a useful
-        result.
+        ``rows`` contains the results of the previous runs. A run diverges if its error exceeds both 1 and the
+        norm of the reference solution. If the last run diverged, the result is False, because a smaller
+        tolerance may give a useful result.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))

@@ -84,7 +84,9 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """A bench measures candidates on one scene. A candidate is an emitted method or another integrator.
+    """Measures the errors and CPU times of candidates on one scene.
+
+    A candidate is an emitted method or another integrator.
 
     If ``folder`` is not None, :meth:`run` writes the results to this folder.
     """

@@ -21,9 +21,9 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order of recipes whose names contain no number of commutators, such as ``rkmk:rk4``.
+"""The largest order of recipes without a cut-off in their names, such as ``rkmk:rk4``.
 
-For the name ``rkmk(2):rk4``, the series of dexp^{-1} is truncated after 2 commutators. For the name
+The 2 in ``rkmk(2):rk4`` is a cut-off: the series of dexp^{-1} is truncated after 2 commutators. For the name
 ``rkmk:rk4``, the compiler searches for the fewest commutators that give the order of the method. For orders
 above SEARCHED, this search takes seconds.
 """
@@ -97,7 +97,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
 
-    On an abelian group, several families give the same methods. Of these families, only the first in the list
+    On an abelian group, several families give the same methods. Only the first of these families in
     :func:`families_for` is used. The function does not check whether a recipe can be compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
@@ -137,8 +137,9 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
     In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. The series is
-    truncated after this number of commutators. Each order of the method has one recipe, with the smallest
-    cut-off that gives this order. Orders below half the classical order of the tableau have no recipe.
+    truncated after this number of commutators. The order of the method depends on the cut-off. For each
+    order, only the smallest cut-off that gives this order is used. Orders below half the classical order of
+    the tableau have no recipe.
 
     Explicit tableaux with exact coefficients may also have a recipe without a cut-off (:data:`SEARCHED`).
     """
@@ -181,7 +182,7 @@ def size(tableau: Tableau) -> int:
 def is_explicit(tableau: Tableau) -> bool:
     """Return True if each stage of a tableau depends only on earlier stages.
 
-    If a tableau cannot be read as a Runge-Kutta tableau, the result is also True.
+    For tableaux that cannot be read as Runge-Kutta tableaux, the result is True.
     """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):

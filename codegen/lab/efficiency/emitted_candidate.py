@@ -36,8 +36,8 @@ class EmittedCandidate:
 
     - ``exact``: the reference solution of the scene.
     - ``target``: the name of a programming language, such as ``c``.
-    - ``budget``: the longest CPU time of a run in seconds.
-    - ``precompiled``: the result of :func:`compile_method`, or None. If the caller gives the result, the
+    - ``budget``: the limit of the CPU time of a run, in seconds.
+    - ``precompiled``: the result of :func:`compile_method`, or None. If ``precompiled`` is given, the
       attribute ``emit_seconds`` does not include the time of :func:`compile_method`.
     - ``equations``: the form of the equations to integrate. The default is the form that the scene states.
     """
@@ -154,7 +154,7 @@ class EmittedCandidate:
         """Return the sum of ``cost`` over all operations that a run executes.
 
         ``iterations`` contains the number of iterations of each system of implicit equations in the whole
-        run. Each iteration executes the operations of its system once. Each substep executes all remaining
+        run. Each iteration executes the operations of one system once. Each substep executes all remaining
         operations once. A step without substeps counts as one substep.
         """
         total, block = 0, 0

@@ -1,7 +1,7 @@
 """The equations of a scene in one of several classical forms.
 
 For example, a rotation can be given by a rotation matrix or by a unit quaternion. Methods that treat the
-state as a vector in R^n can run on each form of the equations. The results can be compared.
+state as a vector in R^n can solve each form of the equations.
 """
 
 from __future__ import annotations

@@ -2,12 +2,12 @@
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The interpreter makes runs with each recipe. Their errors give the predicted number of steps for each
-   required error. The operations of a step give its predicted CPU time.
+1. The interpreter makes runs with each recipe. The errors of these runs give the predicted number of steps
+   for each required error. The operations of a step give the predicted CPU time of the step.
 2. The predicted CPU time of a run is the number of steps times the time of a step. This time divided by the
    safety factor SAFE is a lower bound of the true CPU time.
-3. The best CPU time of the usual search, multiplied by WORST, is the limit for each required error. A recipe
-   is excluded if its lower bound exceeds the limits of all required errors. If a prediction is unreliable,
+3. For each required error, the time limit is WORST times the best CPU time of the usual search. A recipe is
+   excluded if its lower bound exceeds the limits of all required errors. If a prediction is unreliable,
    the lower bound is the time of a single step (:func:`least_ratio`).
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
@@ -59,8 +59,8 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because a timed recipe has the same code.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: a ratio of CPU times, which tests whether fast recipes were excluded. A sample of the
-      excluded recipes is timed. The fastest of them takes ``nearest`` times the best CPU time.
+    - ``nearest``: the smallest ratio of the CPU time of an excluded recipe to the best CPU time. Only a
+      sample of the excluded recipes is timed. If ``nearest`` is below 1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -155,18 +155,18 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the smallest ratio of the predicted CPU time of a recipe to the time limit of an error.
+    """Return the smallest ratio of the predicted CPU time of a recipe to the time limit, over all errors.
 
     A recipe is excluded if this ratio is above 1. ``limits`` maps each error to its time limit in seconds.
     ``adaptive`` is True if the recipe has step-size control.
 
     A prediction is unreliable in two cases:
 
-    - The interpreted runs failed.
-    - The interpreted runs had large errors, and the recipe is implicit or has step-size control.
+    - The runs in the interpreter failed.
+    - The runs in the interpreter had large errors, and the recipe is implicit or has step-size control.
 
-    In both cases, the result depends only on the predicted time of a single step. If this time exceeds the
-    longest time limit, the result is the quotient of the two times. Otherwise the result is 0.
+    In both cases, the predicted time of a single step is compared with the longest time limit. If the step
+    takes longer, the result is the quotient of the two times. Otherwise the result is 0.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -204,10 +204,10 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Measure the CPU time that a recipe needs for each error, and add the results to ``done``.
+    """Measure the CPU time of a recipe for each required error, and add the results to ``done``.
 
-    Return the smallest ratio of a measured time to the best time of the earlier recipes for the same error.
-    If the recipe reaches none of the errors, return infinity.
+    Each measured time is divided by the best earlier time for the same error. Return the smallest quotient,
+    or infinity if the recipe reaches none of the errors.
     """
     done.codes.add(candidate.code)
     done.raced += 1
