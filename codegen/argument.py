@@ -8,7 +8,7 @@ from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
 
 MOST = 2**63 - 1
-"""The largest integer that emitted C accepts as a number of steps, sites or points."""
+"""The largest number of steps, lattice sites or grid points that emitted C accepts."""
 
 
 def real(x: object, name: str) -> float:

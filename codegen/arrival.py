@@ -146,7 +146,7 @@ class Begun:
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
-            options = f", or emit with the solver {' or '.join(others)}" if others else ""
+            options = f", or emit the module with the solver {' or '.join(others)}" if others else ""
             reason += f"; take shorter steps{options}"
         return StepFailed(Status(status), step, self.form.restore(state), reason)
 
@@ -155,7 +155,7 @@ def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
     The result contains the states of all systems. ``accepted`` and ``rejected`` are sums over the systems.
-    ``t`` and ``h`` are the values of the last system.
+    ``t`` and ``h`` are taken from the run of the last system.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

@@ -46,12 +46,12 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write the files and the manifest into a folder, and return their paths.
 
-        A missing folder is created. A module in the folder is replaced if it has the same name and the same
-        target. Other modules are not changed.
+        A missing folder is created. An old module in the folder is replaced if it has the same name and the
+        same target. Other modules are not changed.
 
-        InputError is raised if the old module belongs to another scene or method. If the old or the new
-        module was emitted with the option ``--prefix``, this error is not raised. InputError is also raised
-        if the folder cannot be written to.
+        InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
+        or method. If the name of the old or the new module was chosen with the option ``--prefix``, the old
+        module is replaced without an error.
         """
         folder = Path(directory)
         try:
@@ -73,9 +73,9 @@ class Artifact:
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
         """Raise InputError if this module would replace a module of another scene or method.
 
-        ``entry`` is the manifest entry of the old module. This module replaces the old module if both have
-        the same name and target. If one of the two was emitted with the option ``--prefix``, no error is
-        raised.
+        ``entry`` is the manifest entry of the other module. If the two modules have different names or
+        targets, no error is raised. If the name of one module was chosen with the option ``--prefix``, no
+        error is raised, either.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -95,7 +95,7 @@ def writing(folder: Path) -> Iterator[None]:
     Before the block begins, temporary files of killed processes are removed.
     """
     with locked(folder) as held:
-        if held:  # otherwise a temporary file may belong to a process that is still writing
+        if held:  # without the lock, another process may be writing the temporary files
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)

@@ -107,11 +107,11 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    If the cache contains a shared object for these files, and its digest is correct, nothing is compiled. If
-    ``again`` is true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
+    If the cache contains an undamaged shared object for these files, nothing is compiled. If ``again`` is
+    true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
 
-    CompilerMissing and CompileError may be raised. InputError is raised if the shared object cannot be
-    written.
+    CompilerMissing is raised if there is no C compiler. CompileError is raised if the compiler fails or
+    exceeds the time limit. InputError is raised if the shared object cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -176,7 +176,7 @@ def compile_files(
         raise CompileError(
             f"{compiler.command[0]} did not compile the module within {seconds:g} seconds",
             where=", ".join(sources),
-            hint="choose a method with fewer operations",
+            hint="choose a method with fewer stages or a lower order",
         ) from None
     if answer.returncode or not output.exists():
         words = (answer.stderr or answer.stdout).strip()

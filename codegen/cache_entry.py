@@ -1,10 +1,10 @@
 """The cache: a folder of computed files, which are called entries.
 
-For each entry, a second file contains the SHA-256 digest of the entry. An entry must be a regular file of the
-user, and the digest must be correct. Otherwise the entry is computed again.
+For each entry, a second file contains the SHA-256 digest of the entry. If an entry is not a regular file,
+belongs to another user or has a wrong digest, the entry is computed again.
 
-The compiled code in the cache is executed, so only the user has access to the folder. If the folder cannot be
-used, the process uses a temporary folder.
+Other users have no access to the folder, because the compiled code in the cache is executed. If the folder
+cannot be used, the process uses a temporary folder.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ WORKING = "building-"
 """The beginning of the names of working folders, in which modules are compiled."""
 
 SETTLED = 60.0
-"""Temporary files and unlocked working folders are removed if they are older than this number of seconds."""
+"""The age in seconds after which temporary files and unlocked working folders are removed."""
 
 
 def cache_directory() -> Path:
@@ -151,7 +151,7 @@ def _digest(content: bytes) -> bytes:
 def working_directory(folder: Path) -> Iterator[Path]:
     """Create a working folder inside the cache. The folder is removed at the end of the ``with`` block.
 
-    Before the block begins, old working folders and temporary files of killed processes are removed.
+    Before the block begins, the files and working folders that killed processes left are removed.
     """
     _sweep(folder)
     temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
@@ -160,7 +160,7 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove old unlocked working folders and old temporary files."""
+    """Remove the temporary files and working folders that killed processes left in the cache."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:

@@ -30,11 +30,11 @@ class CertifiedOrder:
     """The order of a method, and the kind of its proof.
 
     - ``certificate`` is the kind of proof. :meth:`text` explains each kind.
-    - ``failing`` contains the conditions of order ``order`` + 1 that the method violates.
-    - ``bound`` is true if the check of the conditions ended at a limit. The method then has at least the
-      order ``order``.
-    - ``classical`` is the name of a classical family, or ''. If ``classical`` is a name, the group is abelian
-      and ``order`` is the order in this classical family.
+    - ``failing`` contains order conditions of order ``order`` + 1 that the method violates.
+    - ``bound`` is true if the conditions of order ``order`` + 1 were not all checked. The order of the method
+      is then at least ``order``.
+    - ``classical``: if the group is abelian and ``order`` is the order in a classical family, this is the
+      name of the classical family. Otherwise the value is ''.
     - If the uncertainty of the coefficients exceeds the rounding error of a double, ``radius`` is this
       uncertainty and the certificate is "none". Otherwise ``radius`` is ''.
     """
@@ -49,20 +49,20 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and an explanation of its proof, for the comment at the head of emitted code."""
         how = {
-            "construction": "each step evaluates the Taylor polynomial of this degree",
+            "construction": "the order is the degree of the Taylor polynomial that each step evaluates",
             "stated": "the scene states this order",
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists, and that its "
             "coefficients differ from the decimals of the tableau by at most one unit in the last digit",
-            "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
-            "decimal": "the conditions hold up to the rounding of the coefficients, which are decimals",
+            "double": "the order conditions hold up to the rounding of the coefficients, which are doubles",
+            "decimal": "the order conditions hold up to the rounding of the coefficients, which are decimals",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
         where = (
-            f"; the conditions are those of {self.classical}, because the group is abelian"
+            f"; the order conditions are those of the family {self.classical}, because the group is abelian"
             if self.classical
             else ""
         )
@@ -85,10 +85,10 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method for a scene.
 
-    On an abelian group, the methods of some families reduce to methods of a classical family. The result is
-    then the order in the classical family, if the coefficients have enough digits to decide this order.
+    On an abelian group, the methods of some families reduce to methods of a classical family. If the
+    coefficients have enough digits to decide the order in the classical family, this order is returned.
 
-    In all other cases, the result is the order in the family of the method. If the coefficients have too few
+    In all other cases, the order in the family of the method is returned. If the coefficients have too few
     digits to decide this order, MethodError is raised.
     """
     from orderconds.checking import check
@@ -140,8 +140,7 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Some methods have no coefficients. Coefficients that are doubles are emitted without rounding. In both
-    # cases the radius is ''.
+    # A method without coefficients has no uncertainty. Coefficients that are doubles are emitted exactly.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

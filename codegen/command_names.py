@@ -24,7 +24,7 @@ def bare(name: str) -> str:
 
 
 def quoted(word: str) -> str:
-    """Quote a word if a shell would otherwise interpret characters in it.
+    """Quote a word if it contains characters that a shell would interpret.
 
     >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
     ("'rkmk(2):rk4'", 'linear_oscillator+u')

@@ -35,7 +35,7 @@ def target_names() -> tuple[str, ...]:
 
 
 def scene_argument(*, required: bool = True) -> Callable[[Command], Command]:
-    """Return the decorator that adds the argument SCENE."""
+    """Return the decorator that adds the argument SCENE to a command."""
     complete = completing(scene_names, files=True)
     return click.argument("scene", required=required, metavar="SCENE", shell_complete=complete)
 
@@ -48,7 +48,7 @@ def methods_option(*, required: bool = False) -> Callable[[Command], Command]:
         "methods",
         multiple=True,
         required=required,
-        help="A method: TABLEAU or FAMILY:TABLEAU; may be repeated.",
+        help="A method: TABLEAU or FAMILY:TABLEAU. The option may be repeated.",
         shell_complete=completing(method_names, files=True),
     )
 
@@ -61,7 +61,7 @@ def values_option(command: Command) -> Command:
         "parameters",
         multiple=True,
         metavar="NAME=VALUE",
-        help="The value of a parameter of the scene, such as nu=3/5; may be repeated.",
+        help="The value of a parameter of the scene, such as nu=3/5. The option may be repeated.",
     )(command)
 
 

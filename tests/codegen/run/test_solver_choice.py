@@ -246,7 +246,7 @@ def test_a_failure_to_converge_names_the_other_solvers(target):
     made = compiled("dipole", "vcg:midpoint", FIXED_POINT)
     integrator = load(emit_compiled(made, target))
     start = list(start_of(made.scene))
-    with pytest.raises(StepFailed, match="or emit with the solver newton or simplified-newton"):
+    with pytest.raises(StepFailed, match="or emit the module with the solver newton or simplified-newton"):
         integrator.run(start, 5.0, 3)
 
 
