@@ -5,7 +5,7 @@ is equal to 1 + b ad_x + c ad_x^2. The coefficients b and c are functions of z. 
 series have the same form. For the series exp(ad_x), b and c are Stumpff functions of z.
 
 On so(3), z = x.x is never negative. On sl(2), z is four times the determinant of the 2 x 2 matrix of x.
-Therefore z may be positive or negative.
+This number can be negative.
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ from codegen.ir.domain import Domain
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
     """Return b and c such that the product of the factors in ``word`` is 1 + b t + c t^2.
 
-    The factors are functions of a variable t with t^3 = -z t (:mod:`codegen.ir.ad_series`). If z may be
-    negative, ``signed`` must be true.
+    The factors are functions of a variable t with t^3 = -z t (:mod:`codegen.ir.ad_series`). If z can be
+    negative, set ``signed`` to true.
 
-    All exponentials in ``word`` are combined into one exponential exp(a t). The product of exp(a t) and the
-    first factor dexp(s t) is (exp((a + s) t) - exp(a t))/(s t). All other factors are multiplied one by one.
+    All exponentials in ``word`` are combined into exp(a t) with a number a. If ``word`` contains factors
+    dexp(s t), the first of them is multiplied by exp(a t). The product is (exp((a + s) t) - exp(a t))/(s t).
+    All other factors are multiplied one by one.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -55,10 +56,9 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients of t and t^2 in a sum of exponentials, where t^3 = -z t.
+    """Return the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``.
 
-    For each pair (k, r) in ``terms``, the sum contains r exp(k t)/t^j. If z may be negative, ``signed`` must
-    be true.
+    The variable t satisfies t^3 = -z t. If z can be negative, ``signed`` must be true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -80,14 +80,14 @@ def _exponentials(
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     """Return b and c with phi(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
-    The argument ``factor`` represents phi(s t)^p, where phi is dexp or dexpinv. The exponent p does not
-    change the result.
+    The argument ``factor`` contains the function phi (dexp or dexpinv) and the number s. The exponent of
+    ``factor`` is ignored, because the caller inverts the result if the exponent is negative.
     """
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Because t^3 = -z t, the powers t, t^3, t^5, ... are multiples of t, and the powers t^2, t^4, ... are
-    # multiples of t^2. Horner's rule computes the coefficients of t and t^2, the entries of ``sums``.
+    # Because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers times t^2. The
+    # coefficients of t and t^2 are the entries of ``sums``. They are computed by Horner's rule.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -100,7 +100,8 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
-    with index k at s^2 z/4. If z <= 0, c_2 is at least 3 c_3. Therefore the difference c_2 - c_3 is accurate.
+    with index k at s^2 z/4. If z <= 0, c_2 is at least 3 c_3. Therefore the difference c_2 - c_3 does not
+    lose digits by cancellation.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -111,7 +112,8 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in 1/(1 + b t + c t^2), where t^3 = -z t.
 
-    To derive the formulas, insert t = i sqrt(z) and compare real and imaginary parts.
+    The number t = i sqrt(z) satisfies t^3 = -z t. With this t, the real and the imaginary part of the
+    reciprocal give both coefficients.
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -43,8 +43,8 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - If ``abelian`` is true, all brackets vanish.
-    - ``layout`` describes the order of the coordinates. In the headers of emitted code, it follows the name
-      of the group. An example is ``, row by row`` in ``element of SO(3), row by row``.
+    - ``layout`` is a text about the order of the coordinates. The headers of emitted code contain this text
+      after the name of the group. An example is ``, row by row`` in ``element of SO(3), row by row``.
     """
 
     name: str
@@ -57,8 +57,8 @@ class LieGroup(ABC):
     equations on R^n (:mod:`codegen.scene.classical_forms`), this noun is printed.
     """
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
-    capability, the error message contains this noun.
+    """A noun for the operations of a class, such as ``coadjoint action``. If a group lacks these operations,
+    the error message contains this noun.
     """
 
     @abstractmethod
@@ -74,9 +74,8 @@ class LieGroup(ABC):
         """Return exp(x) for x in the algebra. The map satisfies exp(0) = e and exp(s x) exp(t x) = exp((s +
         t) x).
 
-        The formula must also be valid at x = 0, for all types of scalars. Therefore it must not divide by the
-        length r of x. For example, replace sin(r)/r by stumpff1(r^2). The function stumpff1 is also defined
-        at 0.
+        The formula must be valid at x = 0. Therefore it must not divide by the length r of x. For example,
+        replace sin(r)/r by stumpff1(r^2), because the function stumpff1 is defined at 0.
         """
 
     @abstractmethod
@@ -108,9 +107,9 @@ class LieGroup(ABC):
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t e_k), where e_k is a basis element of the algebra.
+        """Return exp(t e_k), where e_k is the basis element of the algebra with index k.
 
-        By default, :meth:`exp` is called. A subclass may use a shorter formula.
+        A subclass can override this method by a formula that is shorter than :meth:`exp`.
         """
         zero: S = d.rational(0)
         return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))

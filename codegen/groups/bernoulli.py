@@ -41,7 +41,7 @@ def bernoulli_sum(
 ) -> Vector[S]:
     """Return the sum of B_k/k! v_k for k = 0, ..., order.
 
-    B_k are the Bernoulli numbers. The vector v_k is the result of applying ``advance`` k times to ``first``.
+    B_k are the Bernoulli numbers with B_1 = -1/2. Applying ``advance`` k times to ``first`` gives v_k.
     """
     total, power = first, first
     for k in range(1, last_term(order) + 1):

@@ -4,8 +4,8 @@ A group declares a capability by inheriting the class of the capability. Code th
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
 returns None, and ``require`` raises an error with the name of the capability.
 
-Do not use ``isinstance``. The class of direct products inherits several capabilities. But if a factor lacks
-one of these capabilities, the direct product lacks this capability, too.
+Do not test capabilities with ``isinstance``, because the answer can be wrong for direct products. The class
+of direct products inherits several capabilities. If a factor lacks a capability, the product lacks it, too.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
 """A triple (f, W, v) that represents the term f W(ad_x) v. Here f is a scalar, W is a product of functions of
-ad_x, and v is a vector.
+ad_x, and v is an element of the algebra. If ad*_x replaces ad_x, v is an element of the dual.
 """
 
 
@@ -98,7 +98,8 @@ class Coadjoint(LieGroup):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        For every q in G, this is the momentum of the product of exp(x, n) and (q, mu) in T*G.
+        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G. It is the same
+        for all q in G.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -109,13 +110,14 @@ class Coadjoint(LieGroup):
     ) -> Vector[S]:
         """Return the product of exp(x, n) and (q, mu) in the group T*G.
 
-        The first component is exp(x) q. The second component is the result of :meth:`transport`.
+        Here (x, n) is an element of the algebra of T*G, and (q, mu) is an element of T*G. The first component
+        of the product is exp(x) q. The second component is the result of :meth:`transport`.
         """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
 
 class RightTrivialisation(LieGroup):
-    """A method that computes x from the tangent vector x.g. The Jacobian of a step needs this method."""
+    """A group with a method that computes x from x.g. The Jacobian of a step needs this method."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
@@ -125,7 +127,7 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """Left-translated velocities g.x, the inverse of Ad_g, and the equations of the group.
+    """A group with left-translated velocities g.x, the inverse of Ad_g, and replacement rules.
 
     Scenes with velocities or momenta in the body frame need this capability.
     """
@@ -137,8 +139,8 @@ class LeftTranslation(Coadjoint):
         """Return the equations of the group as replacement rules.
 
         Each rule replaces a product of two coordinates by a polynomial. For elements of the group, the
-        product and the polynomial are equal.
-        ``q`` contains the names of the coordinates of an element.
+        product and the polynomial are equal. The argument ``q`` contains the names of
+        the coordinates of an element.
         """
 
     @abstractmethod
@@ -151,7 +153,7 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x) for an element x of the algebra in the body frame.
+    """A group with a method for the product g exp(x), where x is an element of the algebra.
 
     Integrators in the body frame use this product.
     """
@@ -160,8 +162,11 @@ class BodyFrame(LeftTranslation):
 
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x). Row i of the result depends only on x and on row i of g. The compiler can
-        therefore omit the rows of the result that a step does not use."""
+        """Return g exp(x).
+
+        If g is a matrix, row i of the result depends only on x and on row i of g. Therefore the compiler can
+        omit the rows that a step does not use.
+        """
 
 
 class ClosedFormSeries(Coadjoint):
@@ -188,8 +193,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        ``total`` is an optional function. It returns the sum of f v over some of the terms by a short
-        formula. The argument of ``total`` contains the indices of these terms.
+        The optional function ``total`` computes sums of f v by a short formula. Its argument is a tuple of
+        indices of terms. It returns the sum of f v over these terms.
         """
 
 
@@ -209,7 +214,8 @@ class MatrixRepresentation(LieGroup):
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
         """Return the coordinates of an element, given its matrix. This map is the inverse of :meth:`matrix`.
-        It must be a linear map.
+
+        The map must be linear, because it is applied to differences of matrices, too.
         """
 
     @abstractmethod
@@ -224,7 +230,7 @@ class MatrixRepresentation(LieGroup):
 
 
 class Inverse(LieGroup):
-    """The method that inverts an element of the group."""
+    """A group with a method that inverts elements."""
 
     provides: ClassVar[str] = "inverse of elements"
 
@@ -237,7 +243,8 @@ class CayleyMap(LieGroup):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and the inverse of its differential. Here 1 is the
     identity, and x is a matrix or a quaternion.
 
-    The algebra must contain the cube x^3 of each of its elements x. Then cay(x) is an element of the group.
+    The algebra must contain the cube x^3 of each of its elements x. This condition ensures that cay(x) is an
+    element of the group.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -320,7 +327,7 @@ class Covered(LieGroup):
 
     The covering map is a homomorphism and a local diffeomorphism. Therefore a differential equation on the
     group can be solved on the cover. The text ``covering_formula`` describes the covering map in the header
-    of emitted code. In this text, q is an element of the cover, and g is the image of q in the group.
+    of emitted code. There, q denotes an element of the cover, and g denotes the image of q in the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -343,7 +350,8 @@ class Covered(LieGroup):
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Project q onto the cover, and return the image of the projected element under the covering map.
 
-        Apart from rounding errors, the result satisfies the equations of the group.
+        The coordinates q can violate the equations of the cover by small errors. Apart from rounding
+        errors, the result satisfies the equations of the group.
         """
 
     @abstractmethod
@@ -355,11 +363,10 @@ class Covered(LieGroup):
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return one number, the pivot, for each formula of :meth:`lift`. A formula is valid for g if its
-        pivot is positive.
+        """Return one number, the pivot, for each formula of :meth:`lift`.
 
-        For every g at least one pivot is positive. The formula with the largest pivot has the smallest
-        rounding error.
+        If the pivot of a formula is positive, the formula is valid for g. For every g at least one pivot is
+        positive. The formula with the largest pivot has the smallest rounding error.
         """
 
     @abstractmethod
@@ -371,7 +378,7 @@ class Covered(LieGroup):
 
 
 class Rotations(MatrixElements):
-    """Each element is a rotation matrix."""
+    """A group of rotation matrices."""
 
     provides: ClassVar[str] = "rotation of vectors"
 
@@ -385,7 +392,7 @@ class PointMotions(LieGroup):
 
     provides: ClassVar[str] = "motion of points"
     point_size: int
-    """The number of coordinates of a point."""
+    """The dimension of the vector space."""
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -414,7 +421,8 @@ class DirectProduct(LieGroup):
 class CotangentBundle(LieGroup):
     """The group is the cotangent bundle T*G of the group G = ``base``.
 
-    The coordinates of an element are the coordinates of a point of G, followed by those of the momentum.
+    The coordinates of an element are the coordinates of a point of G, followed by the coordinates of a
+    momentum.
     """
 
     provides: ClassVar[str] = "structure of a cotangent bundle"
@@ -424,20 +432,23 @@ class CotangentBundle(LieGroup):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return the image of ``covector`` under the canonical Poisson bivector of T*G at the point z.
 
-        The image is an element of the algebra of T*G. If ``covector`` is the right-trivialised differential
-        of a Hamiltonian, the image is the right-trivialised Hamiltonian vector field.
+        Both are right-trivialised: ``covector`` is in the dual of the algebra of T*G, and the image is in the
+        algebra. If ``covector`` is the differential of a Hamiltonian, the image is the Hamiltonian vector
+        field.
         """
 
 
 class Projection(LieGroup):
-    """A projection onto the group. It reduces small violations of the equations of the group."""
+    """A group with a projection that reduces small violations of the equations of the group."""
 
     provides: ClassVar[str] = "projection onto the group"
 
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g after an approximate projection onto the group. An element of the group is not changed. If
-        g violates the equations of the group by eps, the result violates them by O(eps^2).
+        """Return g after an approximate projection onto the group.
+
+        If g is in the group, the result is g. If g violates the equations of the group by eps, the result
+        violates the equations by O(eps^2).
         """
 
 
@@ -448,15 +459,16 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of coordinate indices. For each set, the coordinates with these indices are functions
-        of all other coordinates.
+        """Return tuples of indices. The coordinates with the indices in one tuple are functions of all other
+        coordinates.
         """
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Return g with new values of the coordinates that have the indices ``missing``.
 
-        The new values are computed from the other coordinates of g.
+        The new values are computed from the other coordinates of g. The tuple ``missing`` is an element of
+        :meth:`determined`.
         """
 
 

@@ -31,15 +31,16 @@ class Linear(Action):
         return rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """If the group consists of rotations, scale y to the length of ``start``. Otherwise return y.
+        """If the group consists of rotations, scale y approximately to the length of ``start``.
 
-        Let e = 1 - (y.y)/(start.start). The exact factor is (1 - e)^(-1/2). The method uses the first terms
-        of its Taylor series, 1 + e/2 + 3 e^2/8. The relative error of the length is O(e^3).
+        For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The factor
+        (1 - e)^(-1/2) would give the length of ``start``. Instead, y is multiplied by the first terms of the
+        Taylor series of this factor, 1 + e/2 + 3 e^2/8. The relative error of the length is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, the divisor ``squared`` is zero, and ``quotient`` returns 0.
+        # If ``start`` is zero, ``quotient`` returns 0, and y is not scaled.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -1,4 +1,4 @@
-"""Rigid motions of a space."""
+"""Rigid motions acting on points."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from codegen.ir.domain import Domain
 class Motion(Action):
     """Rigid motions acting on points z by g.z = R z + a, with a rotation R and a translation a.
 
-    SE(2) acts on the plane, and SE(3) acts on three-dimensional space. For other semidirect products, R is a
-    linear map.
+    SE(2) acts on the plane, and SE(3) acts on three-dimensional space. Other semidirect products act by the
+    same formula, where R is a linear map.
     """
 
     name = "rigid motion"
     needs = PointMotions
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the dimension of the space."""
+        """Return the number of coordinates of a point."""
         return group.require(PointMotions).point_size
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -51,9 +51,9 @@ class Stiefel(Columns):
         return [[dot(a, b) for b in columns] for a in columns]
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation Y^T Y = I as one pair (name, residual) for each entry. I is the unit matrix.
+        """Return the equations Y^T Y = I as pairs (name, residual). I is the unit matrix.
 
-        The entries above the diagonal are omitted, because Y^T Y is symmetric.
+        Y^T Y is symmetric. Therefore the pairs for the entries above the diagonal are omitted.
         """
         gram, one = self._gram(y), d.rational(1)
         return tuple(
@@ -65,7 +65,7 @@ class Stiefel(Columns):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return an approximate projection of the matrix Y onto the matrices with orthonormal columns.
 
-        The result is Y (3 I - Y^T Y)/2 with the unit matrix I. If eps is the norm of Y^T Y - I, the columns
+        The result is Y (3 I - Y^T Y)/2 with the unit matrix I. Let eps be the norm of Y^T Y - I. The columns
         of the result are orthonormal up to O(eps^2). The argument y contains the entries of Y row by row.
         """
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
