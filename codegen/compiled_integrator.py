@@ -154,8 +154,9 @@ class CompiledIntegrator(Integrator):
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield two lists of arguments for a C function.
 
-        The first list contains the callback for the run-time inputs. The second list contains the structure
-        for the iteration counts. If the C function does not take the argument of a list, this list is empty.
+        The first list contains the callback for the run-time inputs. If the call has no such inputs, the
+        list is empty. The second list contains the structure for the iteration counts. If the step solves no
+        equations by iteration, the list is empty.
 
         This method is used in a ``with`` statement. If the callback fails, the error of the callback is
         raised at the end of the block. Otherwise the iteration counts are added to ``begun.statistics``.
@@ -190,10 +191,10 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The arguments for events in one call of a C function.
+    """The arguments for events in one call of the C function ``integrate``.
 
-    One argument is a function that computes the values of all event functions. The C code writes the zeros
-    of the event functions into arrays, which are arguments, too.
+    The argument ``function`` computes the values of all event functions. The C code writes the zeros of the
+    event functions into the arrays ``times``, ``rows`` and ``numbers``.
     """
 
     ROOM = 1024
@@ -214,7 +215,7 @@ class _Buffers:
 
     @property
     def arguments(self) -> list[Any]:
-        """The arguments for events, in the order in which the C function takes them."""
+        """The arguments for events, in the order of the C function ``integrate``."""
         buffers = [self.times, self.rows, self.numbers, self.count]
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 

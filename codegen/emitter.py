@@ -1,9 +1,8 @@
-"""Compile a method for a scene, and emit a module. A module consists of files and a manifest entry.
+"""Compile a method for a scene, and emit a module. A module consists of files and an entry in the manifest.
 
 :func:`compile_method` translates the method and the scene to a step program, optimises the program in
-several passes, and translates the optimised program to a kernel.
-:func:`emit_compiled` prints the kernel. Emitted files depend only on the scene, the method and the options,
-so the same arguments give the same bytes.
+several passes, and translates the optimised program to a kernel. :func:`emit_compiled` prints the kernel in
+the target language. The same scene, method and options always give the same files.
 """
 
 from __future__ import annotations
@@ -57,7 +56,7 @@ SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The costs of operations. An addition or a product costs 1. Functions that are not listed cost 12.
 
-If a step has two versions, the compiler chooses the version with the lower total cost.
+If the compiler has several kernels for a step, it chooses the kernel with the lowest total cost.
 """
 
 
@@ -65,7 +64,7 @@ If a step has two versions, the compiler chooses the version with the lower tota
 class Optimised:
     """The optimised step program of a method on a scene.
 
-    - ``problem`` is the problem of the scene, rewritten for the family of the method.
+    - ``problem`` is ``scene``, rewritten for the family of the method.
     - ``lowered`` is the step program before the first compiler pass.
     - ``program`` is the step program after the last pass.
     - ``trace`` contains a report of each pass.
@@ -81,7 +80,7 @@ class Optimised:
 
 @dataclass(frozen=True)
 class Compiled(Optimised):
-    """The optimised step program of a method on a scene, with its kernel.
+    """The optimised step program of a method on a scene, and the kernel of this program.
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
@@ -124,12 +123,12 @@ def compile_method(
 ) -> Compiled:
     """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
-    - ``scene``: a problem or its name. ``method``: a method, its name, or a tableau of ``family``.
+    - ``scene``: a problem or its name. ``method``: a method, its name, or a tableau.
+    - ``family``: the family of the tableau. ``form``: the key of a classical form of the scene.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
       not listed are constants.
-    - ``inputs``: signals that become run-time inputs.
-    - ``frame``: the frame of momenta. ``form``: the key of a classical form of the scene.
-    - ``solver``: the solver of implicit equations.
+    - ``inputs``: the names of the signals that become run-time inputs.
+    - ``frame``: the frame of momenta, ``space`` or ``body``. ``solver``: the solver of implicit equations.
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
     - ``integrate``: add a run to a given end time. The run returns the states at given output times.
@@ -174,7 +173,7 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
     """Return the scene with changed parameters and inputs.
 
     An entry ``alpha=1/2`` of ``parameters`` makes alpha the constant 1/2. An entry ``alpha`` makes alpha a
-    run-time argument. The signals ``inputs`` become run-time arguments.
+    run-time argument. The signals in ``inputs`` become run-time inputs.
     """
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
@@ -186,7 +185,7 @@ def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunReque
     """Return the compiled method with the requested features.
 
     The possible features are compensated summation, the derivative of a step, and a run to a given end time.
-    If the method is a Taylor method, ``degree`` is the degree of the polynomial. Otherwise ``degree`` is 0.
+    For a Taylor method, ``degree`` is the degree of the Taylor polynomial. Otherwise ``degree`` is 0.
     """
     method = compiled.method
     if request.compensate:
@@ -215,8 +214,9 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    If a loop over the systems contains function calls, C compilers do not vectorise the loop. Therefore most
-    explicit steps are emitted without outlined functions. MethodError is raised for a semilinear equation.
+    If a loop over the systems contains function calls, C compilers do not vectorise the loop. Therefore, in
+    most explicit steps, repeated computations are not moved to functions. MethodError is raised for a
+    semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -252,7 +252,7 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
             f"{given} is not available for {method.label} on a scene whose formulas contain large matrices",
             where=scene.name,
             expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
-            hint=f"leave out {given}; the emitted run makes steps of equal size",
+            hint=f"leave out {given}",
         )
     own = large_linear_method(scene, method) if scene.linear else array_method(scene, method)
     kernel = own.kernel
@@ -278,7 +278,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
     if refused:
         kind = "a chain or lattice" if scene.semilinear is None else "a semilinear equation"
         what = f"{refused[0]} is not available on {kind}"
-        raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
+        raise MethodError(what, where=scene.name, expected=f"a module without {refused[0]}")
     if scene.semilinear is not None:
         # A method with a cut-off uses a truncated series of dexp^{-1}. The closed form in
         # ``scene.coordinates`` would replace the truncated series.
@@ -292,7 +292,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Return an estimate of the cost of a step. The unit is the cost of an addition (:data:`WEIGHTS`).
+    """Return an estimate of the cost of a step. The costs of the operations are in :data:`WEIGHTS`.
 
     The estimate assumes :data:`SWEEPS` iterations for each implicit equation.
     """
@@ -336,8 +336,8 @@ def emit(
     - ``integrate``: add a run to a given end time. With ``adaptive``, the run accepts bounds on step sizes.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
 
-    The other arguments are those of :func:`compile_method`. Errors: the errors of :func:`compile_method`,
-    UnknownName for an unknown target, and InputError for a prefix that is not a valid name in C.
+    The other arguments and most errors are those of :func:`compile_method`. UnknownName is raised for an
+    unknown target, and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)
@@ -440,7 +440,7 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a module for a kernel in a target language. ``about`` is added to the module's manifest entry.
+    """Return a module for a kernel in a target language. ``about`` is added to the manifest of the module.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
     target, and InputError is raised if the target or the precision is not available for this kernel.

@@ -5,9 +5,9 @@ have the same leading error term, the estimate has a higher order than the local
 called blind.
 
 A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
-In these two cases, the order of the estimate and the order of the local error are measured. For this purpose,
-very short steps of two sizes are computed with 100 digits. The local error of a step of size h is taken as
-the difference between the result of this step and the result of two steps of size h/2.
+In these two cases, the order of the estimate and the order of the local error are measured. To measure them,
+the module computes very short steps of two sizes with 100 digits. The local error of a step of size h is
+approximated by the difference between this step and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""A number in the formula for the smaller step size. Orders are measured with two step sizes.
+"""The number that determines the step sizes for the measurement of orders.
 
-The smaller step size is T times 10^(-SMALLEST / (p + 2)). Here T is the length of the time span of the scene,
-and p is the order of the method.
+An order is measured with two step sizes. The smaller one is T times 10^(-SMALLEST / (p + 2)). Here T is the
+length of the time span of the scene, and p is the order of the method.
 """
 
 ROUNDING = 1e-90
 """A bound for relative rounding errors in computations with DIGITS digits.
 
-It is used to compare two states. The states count as equal if the largest difference of their entries is at
-most ROUNDING times max(1, m). Here m is the largest absolute value of an entry of the first state.
+If the entries of two states differ by at most ROUNDING times max(1, m), the states count as equal. Here m is
+the largest absolute value of an entry of the first state.
 """
 
 RATIO = 8
@@ -64,8 +64,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # If the field depends on the time alone, the method and its embedded method can give the same result,
-    # even if the two methods have different orders.
+    # If the field depends on the time alone, the estimate can be blind even if the two methods have
+    # different orders.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: the field does not depend on the state, so the method "
@@ -88,10 +88,10 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of a method is blind.
 
-    The estimate is the difference between a step of ``method`` and a step of ``embedded``. It is blind if it
-    is always zero, or if it has a higher order than the local error. The order of the estimate and the order
-    of the local error are measured with very short steps. If a step fails, the result is False. ``order`` is
-    the order of ``method``.
+    The estimate is the difference between a step of ``method`` and a step of ``embedded``. The estimate is
+    blind if it is zero, or if it has a higher order than the local error. Both orders are measured with very
+    short steps. If a step fails, or if the local error is zero, the result is False. ``order`` is the order
+    of ``method``.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -116,8 +116,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The function takes a state, the time since the start of the time span, and the step size.
     """
-    # ``lower`` returns a program that computes all stages by iteration. An explicit stage needs no iteration.
-    # Therefore ``blocks.run`` changes explicit stages to assignments.
+    # The program of ``lower`` computes all stages by iteration. ``blocks.run`` changes explicit stages to
+    # assignments, because an explicit stage needs no iteration.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:

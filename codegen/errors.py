@@ -20,10 +20,10 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """Raised if a tableau is not suitable for the families of a search.
+    """Raised if a tableau is not suitable for the families that are considered.
 
-    Either the families cannot use the format of the tableau, or the tableau claims no order in these
-    families. ``claimed`` contains the families in which the tableau claims an order.
+    Either these families cannot use the format of the tableau, or the tableau states no order in these
+    families. ``claimed`` contains the families in which the tableau states an order.
     """
 
     claimed: tuple[str, ...] = ()

@@ -90,8 +90,8 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 class EventValues:
     """A callable object that computes the values of all event functions. Emitted code calls the object.
 
-    ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
-    the error is stored, and all values are NaNs. If a value is NaN, emitted code ends the run.
+    ``restore`` converts a flat state to the type of the initial state of the run. If an event function raises
+    an error, the error is stored, and all values are NaNs. If a value is NaN, emitted code ends the run.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
@@ -108,5 +108,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. Missing values are replaced by 1, which is never a zero.
+        # Emitted code reads ``size`` values. The list is filled up with the constant 1, which has no zero.
         return values + [1.0] * (self.size - len(values))

@@ -33,7 +33,7 @@ class Drift(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the velocity and the force. The force is zero."""
+        """Return the velocity dT/dmu and the force 0."""
         return tuple(evaluate(self.velocity, d, dict(values))), (d.rational(0),) * group.dim
 
     def text(self) -> str:

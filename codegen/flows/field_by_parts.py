@@ -1,9 +1,9 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
-element q. If the exact flow of a part is known, there is often a shorter formula for the field of this part.
-The sum of these formulas for all parts is a second formula for the field of the Hamiltonian. The second
-formula is used if it needs fewer operations than the first one.
+Differentiation of the Hamiltonian gives a formula for the field. This formula contains many entries of the
+group element q. If the exact flow of a part is known, there is often a shorter formula for the field of this
+part. The sum of these shorter formulas over all parts is a second formula for the field of the Hamiltonian.
+If the second formula needs fewer operations than the first formula, it is used.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def with_field_by_parts(problem: Problem) -> Problem:
 
     - The Hamiltonian is not given as a sum of parts, or the flow of a part is unknown.
     - The sum of the fields does not need fewer operations than the field of ``problem``.
-    - The two formulas for the field differ at a sample point.
+    - The sum of the fields differs from the field of ``problem`` at a sample point.
     - The scene gives formulas for flows, or has run-time inputs or external forces.
     """
     if problem.hamiltonian is None or not problem.parts:

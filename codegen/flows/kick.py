@@ -16,11 +16,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """The flow of a potential H = V(q). In the time tau the momentum mu increases by tau n, where n is the
-    force. The group element q is constant.
+    """The flow of a potential H = V(q).
 
-    The force n has the components n_a = -d/deps V(exp(eps e_a) q) at eps = 0, where e_a are the basis
-    elements of the Lie algebra.
+    In the time tau, the momentum mu increases by tau n, where n is the force. The group element q is
+    constant. The components of the force are n_a = -d/deps V(exp(eps e_a) q) at eps = 0. Here e_a are the
+    basis elements of the Lie algebra.
     """
 
     force: tuple[Expr, ...]
@@ -29,14 +29,14 @@ class Kick(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q, mu + tau n), where n is the force."""
+        """Return (q, mu + tau n), where n is the attribute ``force``."""
         n: list[S] = evaluate(self.force, d, dict(values))
         return q, tuple(m + tau * x for m, x in zip(mu, n, strict=True))
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the velocity and the force. The velocity is zero."""
+        """Return the velocity 0 and the force of the potential."""
         return (d.rational(0),) * group.dim, tuple(evaluate(self.force, d, dict(values)))
 
     def text(self) -> str:

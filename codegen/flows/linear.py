@@ -17,7 +17,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Linear(Flow):
-    """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
+    """The flow of a quadratic Hamiltonian on T*R^n. The flow solves z' = L z + c, where z = (q, mu).
 
     The attributes ``matrix`` and ``constant`` are L and c. The attribute ``squares`` is the vector w
     with L^2 = -diag(w). The entries of w are not negative. In the time tau, the flow maps z to
@@ -69,13 +69,13 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the formula is quadratic in z = (q, mu), return the part with its linear flow.
+    """If the formula has a linear flow, return the part with this flow.
 
-    The linear flow solves the equation z' = L z + c. The matrix L is J times the Hessian matrix of the
-    formula. J is the block matrix with the rows (0, I) and (-I, 0), where I is the identity matrix.
+    The linear flow solves the equation z' = L z + c, where z = (q, mu). The matrix L is J times the Hessian
+    matrix of the formula. J is the block matrix with the rows (0, I) and (-I, 0). I is the identity matrix.
 
-    If the group is not abelian, the result is None. If the formula is not quadratic, the result is a
-    :class:`Part` without summands. The same holds if L^2 is not diagonal or has a positive entry.
+    If the group is not abelian, the result is None. In three cases, the result is a :class:`Part` without
+    summands: the formula is not quadratic in z, L^2 is not diagonal, or L^2 has a positive entry.
     """
     if not formula.problem.group.abelian:
         return None

@@ -21,12 +21,12 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""Arithmetic with exact rational numbers. A number is a power series with a constant term alone."""
+"""Exact arithmetic with rational numbers. A number is a power series of degree 0."""
 
 
 @dataclass(frozen=True)
 class Summand:
-    """A summand of a Hamiltonian. Its exact flow is known.
+    """A summand of a Hamiltonian, with its exact flow.
 
     The exact flow is the composition of the flows in ``flows``. These flows commute. Each entry of ``flows``
     is a pair (name, flow).
@@ -36,7 +36,7 @@ class Summand:
 
     @property
     def timed(self) -> bool:
-        """True if one of the flows depends on the time."""
+        """True if a flow in ``flows`` depends on the time."""
         return any(flow.timed for _, flow in self.flows)
 
 
@@ -44,8 +44,8 @@ class Summand:
 class Part:
     """A part of a Hamiltonian.
 
-    If exact flows are known, the part is the sum of ``summands``. Otherwise ``summands`` is empty, and
-    ``reason`` says why.
+    If the part is a sum of summands with known exact flows, ``summands`` contains them. Otherwise
+    ``summands`` is empty, and ``reason`` says why no exact flow is known.
     """
 
     name: str
@@ -54,9 +54,7 @@ class Part:
 
     @property
     def exact(self) -> bool:
-        """True if the part has exactly one summand. The exact flow of this summand is then the exact flow of
-        the part.
-        """
+        """True if the part has one summand. In this case, the exact flow of the part is known."""
         return len(self.summands) == 1
 
 
@@ -128,8 +126,8 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the derivatives of the formulas ``slopes`` with respect to the symbols ``names``. The matrix
-        is computed at the position q and the momentum mu = 0.
+        """Return the matrix of the derivatives of the formulas ``slopes`` with respect to the symbols
+        ``names``, at the position q and the momentum mu = 0.
 
         The result is None if an entry is not a rational number, or if an entry contains the time or a
         parameter that is set at run time.

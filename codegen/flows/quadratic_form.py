@@ -13,7 +13,7 @@ Square = tuple[Fraction, list[Fraction]]
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return numbers d and vectors e as pairs (d, e). The sum of the matrices d e e^T is B.
+    """Return pairs (d, e) of a number d and a vector e. The sum of the matrices d e e^T is B.
 
     The pairs are computed by Lagrange's reduction of a quadratic form.
 
@@ -52,13 +52,11 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a for which :func:`squares` returns few pairs for the matrix B - a I.
 
-    I is the identity matrix.
+    Here I is the identity matrix. If B is diagonal, the result is a diagonal entry that occurs more than
+    once. If all diagonal entries are different, the result is the middle entry in ascending order.
 
-    If B is diagonal, the result is a diagonal entry that occurs more than once. If all diagonal entries are
-    different, the result is the middle entry in ascending order.
-
-    If B is not diagonal, the function compares several candidates: the diagonal entries, and numbers a for
-    which B - a I may have rank one. The result is the candidate for which :func:`squares` returns the fewest
+    If B is not diagonal, the candidates are the diagonal entries, and the numbers a for which a certain
+    2 x 2 minor of B - a I is zero. The result is the candidate for which :func:`squares` returns the fewest
     pairs.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
@@ -73,7 +71,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # If B - a I has rank one, all its 2 x 2 minors are zero. This candidate a is the number
-                    # for which the minor of the rows i, k and the columns i, j is zero.
+                    # For this number a, the minor of the rows i, k and the columns i, j of B - a I is zero.
+                    # If a matrix has rank one, all its 2 x 2 minors are zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))
