@@ -15,12 +15,14 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
     coordinates of mu. Arnold and Khesin (I.10.B) call T*G the magnetic extension of G.
 
-    An element of the algebra is a pair (xi, n). Let xi.q be the derivative of exp(eps xi) q at eps = 0. A
-    field f with the value f(q, mu) = (xi, n) has the equations q' = xi.q and mu' = n - ad*_xi mu. This is
-    eq. 2.27 of H. Marthinsen's thesis. :class:`SceneError` is raised if G has no coadjoint action.
+    An element of the algebra is a pair (xi, n). Let f be a vector field with values f(q, mu) = (xi, n). Its
+    differential equations are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis). Here
+    xi.q is the derivative of exp(eps xi) q at eps = 0.
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
+
+    :class:`SceneError` is raised if G has no coadjoint action.
     """
 
     def __init__(self, base: LieGroup) -> None:
@@ -36,7 +38,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
-        If x has ``self.size`` coordinates, x is split as an element of the group.
+        An element of the group has ``self.size`` coordinates. An element of the algebra has ``self.dim``
+        coordinates.
         """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
@@ -76,7 +79,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
         This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). It maps the
-        differential of a Hamiltonian to the Hamiltonian field.
+        differential of a Hamiltonian to the Hamiltonian vector field.
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
@@ -84,9 +87,10 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return b + tuple(x - y for x, y in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group if it has the operations of the class ``capability``, otherwise None.
+        """Return this group if it has the operations of the class ``capability``. Otherwise return None.
 
-        If G has no Projection, T*G has no Projection. If G has no Inverse, T*G has no Inverse.
+        If the base group has no :class:`Projection`, T*G has no projection. If the base group has no
+        :class:`Inverse`, T*G has no inverse.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own

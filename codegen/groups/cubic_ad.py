@@ -14,14 +14,14 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The word (:mod:`codegen.ir.ad_series`) with the single factor dexp."""
+"""The function dexp of ad_x as a word, which is a product of functions (:mod:`codegen.ir.ad_series`)."""
 
 
 class CubicAd(ClosedFormSeries):
     """A group with ad_x^3 = -z ad_x, where the number z is a quadratic form of x.
 
-    Let c_2 and c_3 be Stumpff functions. Then dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2. If ``signed`` is
-    true, z may be negative.
+    Let c_2 and c_3 be Stumpff functions. Then dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2. If z can be negative,
+    the subclass sets ``signed`` to true.
     """
 
     signed: ClassVar[bool] = False
@@ -36,7 +36,7 @@ class CubicAd(ClosedFormSeries):
         """Return W(ad_x) v, where W is the product of the factors in ``word``. If ``dual`` is true, return
         W(ad*_x) v.
 
-        For each ``word``, only two brackets are needed.
+        The operator W(ad_x) is a quadratic polynomial in ad_x. Therefore two brackets are enough.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -54,12 +54,11 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The number f is a factor, and W is a product of functions of ad_x. Each W(ad_x) is a polynomial
-        1 + b ad_x + c ad_x^2. Let A, B and C be the sums of f v, f b v and f c v. The result is
-        A + ad_x (B + ad_x C), which needs only two brackets.
+        In each triple, f is a number, and W(ad_x) is a polynomial 1 + b ad_x + c ad_x^2. Let A, B and C be
+        the sums of f v, f b v and f c v. The result is A + ad_x (B + ad_x C), which needs two brackets.
 
-        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A. Its
-        argument contains the indices of all terms.
+        If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A from the
+        indices of all terms.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

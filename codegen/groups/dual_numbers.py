@@ -1,8 +1,8 @@
 """Dual numbers a + a' e with e^2 = 0, whose components a and a' are scalars of any domain.
 
-The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore a group operation with dual numbers as
-arguments also gives the derivative of the operation. For example, the bracket of two vectors of dual numbers
-is [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
+The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore the coefficient of e in the result of a
+group operation is a derivative of the operation. For example, the bracket of two vectors of dual numbers is
+[x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
 """
 
 from __future__ import annotations
@@ -64,9 +64,9 @@ class DualDomain:
         return Dual(self.domain.rational(p, q), self.zero)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a Stumpff function at a dual number.
+        """Return the value of the Stumpff function ``function`` at the dual number in ``args``.
 
-        ``function`` is the name of the function. ArithmeticError is raised if it is not a Stumpff function.
+        ArithmeticError is raised if ``function`` is not the name of a Stumpff function.
         """
         name, digit = function[:-1], function[-1:]
         if not (name.endswith("stumpff") and digit.isdecimal()):

@@ -20,7 +20,7 @@ class Galilean(Semidirect):
 
     The elements of the algebra are (w, b, u, r). The components w, b, u and r are the derivatives of R, v, p
     and s at the identity. The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r).
-    Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix of the map b -> w cross b.
+    Here psi(w) is the sum of W^k/(k+2)! over k >= 0. The matrix W satisfies W a = w cross a for all a.
     """
 
     name = "Gal(3)"
@@ -30,12 +30,12 @@ class Galilean(Semidirect):
         self.layout = ": rotation, row by row; velocity; position; time"
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
-        """Return the Galilean group with ``linear`` as its implementation of rotations and boosts."""
+        """Return the Galilean group that computes rotations and boosts by the group ``linear``."""
         return Semidirect(linear, _Events(), self.name)
 
 
 class _Events(MatrixColumns):
-    """The representation of rotations and boosts on events (position, time)."""
+    """The action of rotations and boosts on events: (R, v) maps (y, t) to (R y + v t, t)."""
 
     def _inverse(self, d: Domain, group: LieGroup, g: Vector[S]) -> Vector[S]:
         columns, velocity = [g[j:9:3] for j in range(3)], g[9:]
@@ -44,11 +44,10 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return the translation of exp(x, u). For x = (w, b) and u = (p, r), it is (dexp_w p + r psi b, r).
+        """Return the translation (dexp_w p + r psi(w) b, r) of exp(x, u) for x = (w, b) and u = (p, r).
 
-        Let z = |w|^2, and let W be the matrix of the map b -> w cross b. The matrix psi is
-        1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2. Here c_2 and c_3 are Stumpff functions, and c_2' is the
-        derivative of c_2.
+        Let z = |w|^2, and let c_2 and c_3 be Stumpff functions. The matrix psi(w) is
+        1/2 + c_3(z) W + (c_2'(z) + c_3(z)/2) W^2, where W a = w cross a for all vectors a.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

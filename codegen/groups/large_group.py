@@ -1,4 +1,4 @@
-"""Groups of large matrices. No element of the group or of its algebra is stored as an n x n matrix."""
+"""Groups of large n x n matrices. Elements of the group are never computed."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large n x n matrices. Its elements have n^2 entries and are never computed.
+    """A group of large n x n matrices.
 
-    Each operation of the group raises :class:`codegen.errors.SceneError`. The error message contains the text
-    ``families``. This text lists the families of methods that work for the group.
+    The operations of the group raise :class:`codegen.errors.SceneError`. The text ``families`` is a part of
+    the error message. It lists the families of methods that work for the group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -53,8 +53,8 @@ class LargeGroup(LieGroup):
 
 
 class LargeRotations(LargeGroup):
-    """SO(n) for large n. Emitted steps store elements of the algebra as products of small matrices
-    (:mod:`codegen.ir.array_step`).
+    """SO(n) for large n. Emitted steps store an element of the algebra as a product B S B^T. The matrix B has
+    few columns, and the skew matrix S is small (:mod:`codegen.ir.array_step`).
     """
 
     def __init__(self, n: int) -> None:
@@ -62,8 +62,8 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. For a matrix A and a vector y, emitted steps compute exp(A) y from products of
-    matrices and vectors (:mod:`codegen.ir.linear_array_step`). The matrix exp(A) is not computed.
+    """GL(n) for large n. Emitted steps compute exp(A) y for a vector y without the matrix exp(A). They
+    multiply vectors by matrices (:mod:`codegen.ir.linear_array_step`).
     """
 
     def __init__(self, n: int) -> None:

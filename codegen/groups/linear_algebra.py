@@ -44,7 +44,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return sum a_i b_i. The terms are added from the first to the last."""
+    """Return the scalar product of a and b. Its terms are added from the first to the last."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -52,11 +52,14 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 
 
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
-    """Return v (1 + e/2 + 3 e^2/8). For e = 1 - |v|^2, this is v/|v| up to O(e^3)."""
+    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3).
+
+    If e = 1 - |v|^2, the vector v/sqrt(1 - e) is the unit vector v/|v|.
+    """
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # The sum 1 + excess is not computed, because rounding would lose a small excess. The spacing of doubles
-    # is larger above 1 than below 1. Therefore a positive excess would be lost more often than a negative
-    # excess, and v would become too short.
+    # The factor 1 + excess is not computed, because rounding would lose a small excess. The spacing of
+    # doubles is larger above 1 than below 1. Therefore positive values of ``excess`` would be lost more often
+    # than negative values, and v would become too short.
     return tuple(a + excess * a for a in v)
 
 
@@ -95,8 +98,8 @@ def determinant(a: Vector[S], n: int) -> S:
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` maps each set of m columns to the determinant of their entries in the last m rows. At first,
-    # m is 1. Each pass of the outer loop increases m by one, and m is n at the end.
+    # ``minors`` contains the m x m minors of the last m rows. The keys are the columns of the minors. Before
+    # the outer loop, m is 1. Each pass of the outer loop increases m by one.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}
@@ -119,8 +122,8 @@ formulas.
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the product of two n x n matrices.
 
-    Small matrices are multiplied entry by entry. Large matrices are multiplied by a vector function
-    (:mod:`codegen.ir.vector_function`), which is a loop in emitted code.
+    For small matrices, the entries of the product are formulas. For large matrices, the product is the value
+    of a vector function (:mod:`codegen.ir.vector_function`). In emitted code, this function is a loop.
     """
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 

@@ -1,11 +1,10 @@
 """Matrix groups that are given by a basis of their Lie algebra.
 
-The exponential of a matrix is a power series. If all products of four matrices of the algebra are zero, the
-exponential is computed as a short sum. In all other cases, it is computed by a vector function
-(:mod:`codegen.ir.vector_function`).
+If all products of four matrices of the algebra are zero, the exponential is a polynomial of degree at most 3.
+In all other cases, the exponential is computed by a vector function (:mod:`codegen.ir.vector_function`).
 
-The map dexp_x satisfies dexp_x y = L exp(-x). Here L is the derivative of the exponential at the matrix x in
-the direction of the matrix y.
+Let L be the derivative of the exponential at the matrix x in the direction of the matrix y. Then
+dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
@@ -102,7 +101,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y for a column y.
 
-        If the matrices are large and the algebra is not nilpotent, the matrix exp(x) is not computed.
+        If the matrices are large and the algebra is not nilpotent, exp(x) y is computed without the matrix
+        exp(x).
         """
         if self.n < LOOPED or self.algebra.nilpotency:
             return super().exp_times(d, x, y)
@@ -134,8 +134,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return [x, y].
 
-        For large matrices with more than n^2 structure constants, [x, y] is computed as a commutator of
-        matrices. In all other cases, [x, y] is computed from the structure constants.
+        If n is large and more than n^2 structure constants are not zero, [x, y] is computed as a commutator
+        of matrices. In all other cases, [x, y] is computed from the structure constants.
         """
         if self._has_long_brackets:
             return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
@@ -187,8 +187,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu.
 
-        Let a = -hat(x) and M = dual_hat(mu). The matrix L is the derivative of exp at a in the direction M^T.
-        Let R = L exp(-a). The result is dual_vee(R^T).
+        Let M = dual_hat(mu), and let R = dexp_{-x} M^T. The result is dual_vee(R^T).
         """
         if self.algebra.nilpotency:
             return self._dual_series(d, x, mu)
@@ -200,9 +199,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for a nilpotent algebra: the finite sum of (ad*_x)^k mu/(k+1)! over k >= 0."""
         total, term = mu, mu
-        # Let m = ``nilpotency``. All products of m matrices of the algebra are zero, and therefore x^m = 0.
-        # The matrix (ad_x)^(2 m - 1) y is a linear combination of the products x^i y x^j with
-        # i + j = 2 m - 1. Each product is zero, because i or j is at least m.
+        # Let m = ``nilpotency``, so x^m = 0. The matrix (ad_x)^(2 m - 1) y is a linear combination of
+        # matrices x^i y x^j with i + j = 2 m - 1. Because i or j is at least m, these matrices are zero.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -212,7 +210,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        For every q in G, this is the momentum of the product of exp(x, n) and (q, mu) in T*G.
+        The product of exp(x, n) and (q, mu) in T*G has this momentum for all q.
         """
         if self.algebra.nilpotency:
             return super().transport(d, x, n, mu)
@@ -236,8 +234,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return exp(x) and the momentum p = Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        Let a = hat(x), M = dual_hat(mu) and N = dual_hat(n). Let L be the derivative of exp at a in the
-        direction N^T, and let R = (exp(a) M^T + L) exp(-a). Then p = dual_vee(R^T).
+        Let M = dual_hat(mu), N = dual_hat(n) and R = exp(x) M^T exp(-x) + dexp_x N^T. Then
+        p = dual_vee(R^T).
         """
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
@@ -258,14 +256,14 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 class IsometryGroup(MatrixGroup, Projection):
     """A group of matrices g with g^T J g = J. Each row of J has one non-zero entry, which is 1 or -1.
 
-    ``form`` contains the non-zero entry of each row of J as a pair (column, value). The inverse of g is
-    J^-1 g^T J.
+    ``form`` contains a pair (column, value) for each row of J: the position and the value of the non-zero
+    entry.
     """
 
     form: tuple[tuple[int, int], ...]
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the inverse of g, which is J^-1 g^T J."""
+        """Return J^-1 g^T J. If g is in the group, this matrix is the inverse of g."""
         result = list(g)
         for i, (p, s) in enumerate(self.form):
             for j, (q, t) in enumerate(self.form):
@@ -274,14 +272,14 @@ class IsometryGroup(MatrixGroup, Projection):
         return tuple(result)
 
     def opposite_exponential(self, d: Domain, a: Vector[S], exponential: Vector[S]) -> Vector[S]:
-        """Return the inverse of exp(a)."""
+        """Return exp(-a), the inverse of the matrix ``exponential``."""
         return self.inverse(d, exponential)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g (3 - r g)/2, where r = J^-1 g^T J is the result of :meth:`inverse`.
+        """Return g (3 - r g)/2 with r = J^-1 g^T J: one step of the Newton-Schulz iteration.
 
-        If g is in the group, the result is g. The formula is one step of the Newton-Schulz iteration. Near
-        the group, each step doubles the number of correct digits.
+        The iteration converges to an element of the group if g is near the group. Each step doubles the
+        number of correct digits. If g is in the group, the result is g.
         """
         half, three = d.rational(1, 2), d.rational(3)
         gram = matmul(self.inverse(d, g), g, self.n)
@@ -293,8 +291,8 @@ class IsometryGroup(MatrixGroup, Projection):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return a pair (text, residual) for each entry of the matrix J^-1 g^T J g - 1.
 
-        The residual is the value of the entry. The text is the equation of the group. If J is the unit
-        matrix, the text is "g^T g = 1". Otherwise the text is "g^T J g = J".
+        The residual is the value of the entry. The text is "g^T J g = J", or "g^T g = 1" if J is the unit
+        matrix.
         """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
@@ -315,7 +313,7 @@ class RotationGroup(IsometryGroup, Rotations):
 
 
 def _weighted(d: Domain, rows: Sequence[Sparse], values: Sequence[S]) -> Vector[S]:
-    """Return the product of a sparse rational matrix, given by its rows, and the vector ``values``."""
+    """Return the product of the sparse rational matrix ``rows`` and the vector ``values``."""
     result: list[S] = []
     for row in rows:
         total: S = d.rational(0)

@@ -1,8 +1,8 @@
 """Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
 
 By default every scene (problem) uses the exponential map: ``coordinates="exp"``. The inverse differential of
-the exponential map is an infinite series of brackets, so methods truncate it. The maps in this package have
-inverse differentials with exact formulas, so nothing is truncated.
+the exponential map is an infinite series of brackets, which methods truncate. The inverse differentials of
+the maps in this package have exact formulas.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ EXPONENTIAL = "exp"
 """The name of the exponential map."""
 
 MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondKind())}
-"""The coordinate maps by name. For the exponential map there is no :class:`CoordinateMap` and no entry."""
+"""The coordinate maps by name, without the exponential map."""
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:

@@ -16,11 +16,11 @@ class CoordinateMap(ABC):
     """A map tau from the algebra to the group. Its value tau(0) is the neutral element, and its derivative at
     zero is the identity map.
 
-    A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0. The substitution y = tau(x).y0 gives
-    the equation x' = dtau^{-1}_x f(tau(x).y0), which a Runge-Kutta method solves. The inverse differential is
-    exact, so the order of the Runge-Kutta method is kept.
+    A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0, where f(y) is in the algebra. With
+    y = tau(x).y0, the equation becomes x' = dtau^{-1}_x f(tau(x).y0). A Runge-Kutta method solves the
+    equation for x. Because dtau^{-1} is not truncated, the order of the Runge-Kutta method is kept.
 
-    - ``name`` is the value of the option ``coordinates`` of a scene that uses this map.
+    - ``name`` selects this map in the option ``coordinates`` of a scene.
     - ``text`` describes the map in the headers of emitted code.
     """
 
@@ -37,8 +37,8 @@ class CoordinateMap(ABC):
 
     @abstractmethod
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dtau^{-1}_x y.
+        """Return dtau^{-1}_x y, where dtau_x is the right-trivialised differential of tau at x.
 
-        If x(t) satisfies x' = dtau^{-1}_x y, then g(t) = tau(x(t)) satisfies g' = y.g. The method
+        If x' = dtau^{-1}_x y, the curve g(t) = tau(x(t)) satisfies g' = y.g. The method
         :meth:`LieGroup.velocity` computes y.g.
         """

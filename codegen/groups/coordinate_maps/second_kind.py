@@ -13,10 +13,10 @@ from codegen.ir.domain import Domain
 class SecondKind(CoordinateMap):
     """The map tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_n e_n) for the basis e_1, ..., e_n of the algebra.
 
-    Let E_k = exp(x_k e_k). The differential dtau_x v is the sum of v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k for k =
-    1, ..., n (Owren and Marthinsen 2001). The linear system dtau_x v = y is solved by Gaussian elimination
-    without row exchanges. If the step size is large, a pivot may be zero. Then the step fails with the status
-    TOO_FAR.
+    Let E_k = exp(x_k e_k). The right-trivialised differential dtau_x v is the sum of
+    v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k for k = 1, ..., n (Owren and Marthinsen 2001). The linear system
+    dtau_x v = y is solved by Gaussian elimination without row exchanges. If the step size is large, a pivot
+    can be zero. If a pivot is zero, the step fails with the status TOO_FAR.
     """
 
     name = "second_kind"
@@ -43,14 +43,12 @@ class SecondKind(CoordinateMap):
         return g
 
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the solution v of the linear system dtau_x v = y.
-
-        The docstring of the class contains the formula for dtau_x v.
-        """
+        """Return the solution v of the linear system dtau_x v = y."""
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Let E_k = exp(x_k e_k). The equation dtau_x v = y is multiplied by the inverse of Ad_{E_1}. The new
-        # matrix has the columns e_1, e_2, Ad_{E_2} e_3, and so on. Therefore the first two pivots are 1.
+        # Let E_k = exp(x_k e_k). Both sides of dtau_x v = y are multiplied by the inverse of Ad_{E_1}. Then
+        # the matrix of the system has the columns e_1, e_2, Ad_{E_2} e_3, and so on. Its first two pivots
+        # are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
