@@ -36,28 +36,27 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """One tuple for each position in a matrix. The positions are ordered row by row.
+        """For each position in a matrix, the non-zero entries of the basis matrices at this position.
 
-        A pair (i, x) in the tuple means that basis matrix i has the non-zero entry x at this position.
+        A pair (i, x) means that basis matrix i has the entry x. The positions are ordered row by row.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """One tuple for each position in a matrix. The positions are ordered row by row.
+        """For each position in a matrix, the non-zero entries of the dual basis at this position.
 
-        A pair (i, x) in the tuple means that matrix i of the dual basis has the non-zero entry x at this
-        position.
+        A pair (i, x) means that matrix i of the dual basis has the entry x. The positions are ordered row by
+        row.
         """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """A number k such that every product of k matrices of the algebra is zero.
+        """A number k such that every product of k matrices of the algebra is zero, or 0 if no k is found.
 
-        If no k is found, the value is 0. The search uses only the positions of the non-zero entries of the
-        basis matrices. The search ignores that terms of a product may cancel. Therefore the search may find
-        no k, or a k that is not the smallest one.
+        The search uses only the positions of the non-zero entries of the basis matrices. Terms of a product
+        can cancel, but the search ignores cancellation. Therefore the search can miss the smallest k.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -73,7 +72,7 @@ def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebr
 
     :class:`codegen.errors.SceneError` is raised if the matrices are not a basis of a Lie algebra.
     """
-    # The result is cached, because every command constructs the groups of its scene several times.
+    # Commands construct the same group several times. Therefore the algebra is cached.
     dual = _dual(name, basis)
     finder = _Coordinates(name, basis, dual, n)
     constants: list[tuple[int, int, int, Fraction]] = []

@@ -16,27 +16,27 @@ from orderconds.ring import QQ
 class MatrixCoordinates(MatrixElements, CayleyMap):
     """A group of matrices. The basis matrices of the algebra have rational entries.
 
-    The group has a Cayley map if the algebra contains x^3 for each of its elements x.
+    If the algebra contains the cube of each of its elements, the group has a Cayley map.
     """
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group if it has the capability, otherwise None.
+        """Return this group if it has the operations of the class ``capability``. Otherwise return None.
 
-        If the algebra lacks x^3 for some element x, the group does not have the capability
-        :class:`CayleyMap`. Some values cay(x) are outside such a group.
+        If the cube of some element of the algebra is not in the algebra, some values cay(x) are outside the
+        group. Then the group does not have the capability :class:`CayleyMap`.
         """
         own = super().offers(capability)
         return None if capability is CayleyMap and not self._contains_cubes else own
 
     @cached_property
     def _contains_cubes(self) -> bool:
-        """True if the algebra contains x^3 for each of its elements x.
+        """True if the cube of every element of the algebra is in the algebra.
 
-        The method tests one element x. Its coordinates are fixed integers below 2^61. The entries of x^3
-        are polynomials of degree 3 in the coordinates. If the integers were random, the result would be wrong
-        with a probability of about 3/2^61 or less.
+        Only one element x is tested. The entries of x^3 are polynomials of degree 3 in the coordinates of x.
+        For random coordinates below 2^61, a wrong result True would have a probability of about 3/2^61 or
+        less.
         """
-        # The coordinates are powers of 37 modulo the prime 2^61 - 1.
+        # Powers of 37 modulo a prime look random, but they are equal in every run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)
@@ -45,7 +45,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return self._exact(tuple(Fraction(QQ.text(c.coefficients[0])) for c in y)) == cube
 
     def _exact(self, x: Sequence[Fraction]) -> Vector[Fraction]:
-        """Return the matrix of an element with rational coordinates."""
+        """Return the exact matrix of the element x of the algebra."""
         d = SeriesDomain(QQ, 0)
         entries = self.hat(d, tuple(d.rational(a.numerator, a.denominator) for a in x))
         return tuple(Fraction(QQ.text(e.coefficients[0])) for e in entries)
@@ -55,13 +55,13 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return solved_near_identity(*self._near_identity(d, x), self.order)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (1 - A/2) B (1 + A/2) for the matrices A of x and B of y."""
+        """Return the coordinates of (1 - A/2) B (1 + A/2) for the matrices A of x and B of y."""
         left, right = self._near_identity(d, x)
         n = self.order
         return self.vee(d, matmul(matmul(left, self.hat(d, y), n), right, n))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return A B A for the matrices A of x and B of y."""
+        """Return the coordinates of A B A for the matrices A of x and B of y."""
         left, middle = self.hat(d, x), self.hat(d, y)
         return self.vee(d, matmul(matmul(left, middle, self.order), left, self.order))
 
@@ -75,8 +75,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
         """Return exp(t B) for the basis matrix B with the index k.
 
-        If B^3 = s B for a number s, the result is 1 + t c_1(z) B + t^2 c_2(z) B^2 with z = -s t^2. Here c_1
-        and c_2 are the Stumpff functions. Otherwise the method calls :meth:`exp`.
+        If B^3 = s B for a number s, the result is 1 + t c_1(z) B + t^2 c_2(z) B^2. Here z = -s t^2, and c_1
+        and c_2 are Stumpff functions. If there is no such number s, the method calls :meth:`exp`.
         """
         b = self._exact([Fraction(int(i == k)) for i in range(self.dim)])
         square = matmul(b, b, self.order)
@@ -96,13 +96,13 @@ def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
 
 
 def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
-    """Return the values of the Stumpff functions c_1 and c_2 at -c t^2."""
+    """Return c_1(z) and c_2(z) for z = -c t^2, where c_1 and c_2 are Stumpff functions."""
     if not c:
         return d.rational(1), d.rational(1, 2)
     z: S = d.rational(-c.numerator, c.denominator) * (t * t)
     if c < 0:
         return d.call("stumpff1", z), d.call("stumpff2", z)
-    # The half-angle formula gives c_2(z) = c_1(z/4)^2/2.
+    # The half-angle formula c_2(z) = c_1(z/4)^2/2 gives the second Stumpff function.
     half: S = d.call("signed_stumpff1", d.rational(1, 4) * z)
     return d.call("signed_stumpff1", z), d.rational(1, 2) * (half * half)
 

@@ -31,9 +31,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     """The direct product G1 x G2 x ... of groups. An element lists the coordinates of the factors one after
     the other. Every operation acts on each factor separately.
 
-    SO(3) x R^3 is not the group of rigid motions. In a rigid motion the rotation acts on the vectors of R^3,
-    but in the direct product the rotation does not act on them. If a factor lacks one of the class's
-    capabilities (:mod:`codegen.groups.capabilities`), the product lacks the same capability.
+    SO(3) x R^3 is not the group of rigid motions, because the rotation does not act on the vectors of R^3.
+    The product has a capability such as :class:`CayleyMap` only if all factors have this capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -50,17 +49,19 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split x into one tuple of coordinates for each factor.
 
-        If the length of x is the size of the group, x is a group element. Otherwise x is an element of the
-        algebra or of the dual of the algebra.
+        If x has ``size`` components, x is a group element. If x has ``dim`` components, x is an element of
+        the algebra or of the dual of the algebra.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if its class and all factors have the capability, otherwise None."""
+        """Return this product if its class and all factors have the operations of the class ``capability``.
+        Otherwise return None.
+        """
         own = super().offers(capability)
-        # Every product has the operations of LieGroup and DirectProduct, whatever its factors are.
+        # A product of arbitrary groups has the operations of LieGroup and DirectProduct.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
@@ -68,8 +69,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
         """Call ``operation`` for each factor, and join the results to one tuple.
 
-        Each element of ``args`` is split into one part for each factor. The arguments of ``operation`` are a
-        factor and the parts for this factor.
+        The arguments of ``operation`` are a factor, and the part of each element of ``args`` that belongs to
+        this factor.
         """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
@@ -123,7 +124,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations of all factors as replacement rules (see :class:`LeftTranslation`)."""
+        """Return the replacement rules of all factors (see :meth:`LeftTranslation.relations`)."""
         ends = accumulate(f.size for f in self.factors)
         return tuple(
             relation
@@ -152,15 +153,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """For each factor, return the product x y x of elements x and y of the algebra."""
+        """Return x y x, factor by factor."""
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """For each factor, return the element x of the algebra with velocity(x, g) = v."""
+        """Return the element x of the algebra with velocity(x, g) = v, factor by factor."""
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all factors, as pairs of a name and a residual at g."""
+        """Return the equations of all factors (see :meth:`LieGroup.laws`)."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
@@ -176,9 +177,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    With labels of different lengths, two coordinates could have the same symbol. For example, the 27th
-    factor would have the label aa. Suppose that the first factor is itself a product. The symbols of its
-    first factor would also begin with aa.
+    If the first factor is itself a product, labels of different lengths would be ambiguous. The label aa
+    could mean the 27th factor, or the first factor of the first factor.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

@@ -12,9 +12,9 @@ from codegen.ir.decimals import exact
 def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]:
     """Return the rows of a matrix as exact fractions.
 
-    The matrix is a list of rows, a sympy matrix or a NumPy array. A float is read as the shortest decimal
-    number that rounds to this float. :class:`SceneError` is raised for any other argument, and for an entry
-    that is not rational. The error message contains ``name``, the name of the group.
+    ``matrix`` is a list of rows, a sympy matrix or a NumPy array. A float is read as the shortest decimal
+    number that rounds to this float. :class:`SceneError` is raised if ``matrix`` has another type, or if an
+    entry is not rational. ``name`` is the name of the group in error messages.
 
     >>> rational_rows("A", [[0, 0.1], ["1/3", 0]])[0]
     (Fraction(0, 1), Fraction(1, 10))

@@ -33,9 +33,9 @@ class Registry(Generic[T]):
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        If an added class has the same name, the new class replaces it. Therefore a scene file that adds
-        classes can be read twice. :class:`SceneError` is raised in two cases: a built-in class has the same
-        name, or the new class has abstract methods.
+        The class replaces an earlier added class of the same name. Therefore a scene file that adds classes
+        can be read twice. :class:`SceneError` is raised if a built-in class has the same name, or if the
+        class has abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:

@@ -1,8 +1,8 @@
 """Linear representations of groups, from which semidirect products are built.
 
 A representation rho is a linear action of a group on a vector space V. A vector v of V and a covector p of
-its dual are flat tuples, and <p, v> is their dot product. For x in the algebra, x.v is the derivative of
-rho(exp(eps x)) v at eps = 0.
+the dual space are flat tuples, and <p, v> is their dot product. For x in the algebra, x.v is the derivative
+of rho(exp(eps x)) v at eps = 0.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""A pair: an element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
+"""An element of the group's algebra and a vector, or an element of the algebra's dual and a covector."""
 
 
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector lists its components copy by copy. The methods of this class act on one copy. The group must have
-    the capability ``needs``.
+    A vector lists its components copy by copy, but the methods of this class act on one copy. ``needs`` is
+    the capability that the group must have.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. If false, a semidirect product with this representation does not have
-    the capability :class:`Covered`.
+    """True if the representation is Ad. Only then can a semidirect product with this representation have the
+    capability :class:`Covered`.
     """
 
     def __init__(self, copies: int = 1) -> None:
@@ -87,9 +87,9 @@ class Representation(ABC):
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u. The exponential of (x, u) in the semidirect product is (exp(x), phi(x) u).
+        """Return phi(x) u. Here phi(x) is the sum of X^k/(k+1)! over k >= 0, and X is the map v -> x.v.
 
-        phi(x) is the sum of X^k/(k+1)! over k >= 0, where X is the linear map v -> x.v.
+        In the semidirect product, the exponential of (x, u) is (exp(x), phi(x) u).
         """
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
@@ -106,8 +106,8 @@ class Representation(ABC):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        x and v are elements of the algebra of the semidirect product. Each is a pair: an element of the
-        group's algebra, and a vector of one copy of the space.
+        x and v are elements of the algebra of the semidirect product. Such an element is a pair: an element
+        of the group's algebra, and a vector of one copy of the space.
         """
         raise self._missing("series")
 
@@ -125,23 +125,23 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="gradient(), or series() and dual_series() if closed() returns True",
+            expected="series() and dual_series() if closed() returns True, otherwise gradient()",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """If each element g acts on vectors by multiplication with the matrix of g, return the group.
-        Otherwise return None.
+        """Return the group if each element acts on vectors by multiplication with its matrix. Otherwise
+        return None.
         """
         return None
 
 
 class AlgebraVectors(Representation):
-    """Copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
+    """One or more copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
 
-    Here x.v is the bracket [x, v]. The dual number x + u e with e^2 = 0 represents the element (x, u) of the
-    semidirect product's algebra. The bracket of dual numbers is the bracket of this algebra. Therefore the
-    group's formulas for functions of ad are evaluated with dual numbers.
+    Here x.v is the bracket [x, v]. A vector of dual numbers, x + u e with e^2 = 0, represents the element
+    (x, u) of the semidirect product's algebra. The bracket of (x, u) and (y, v) is [x + u e, y + v e].
+    Therefore the group's formulas for functions of ad can be evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -177,7 +177,7 @@ class AlgebraVectors(Representation):
         return group.require(Coadjoint).adt(d, x, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return -ad*_v p."""
+        """Return the momentum map -ad*_v p. It satisfies <-ad*_v p, x> = <p, [x, v]> for all x."""
         return tuple(-a for a in group.require(Coadjoint).adt(d, v, p))
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
@@ -191,7 +191,7 @@ class AlgebraVectors(Representation):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        The method represents x and v by dual numbers, and evaluates the group's formula for ``word``.
+        The method evaluates the group's formula for ``word`` with dual numbers (see the class).
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
@@ -202,7 +202,7 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p.
 
-        The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The number
+        The method evaluates the group's formula for ``word`` with dual numbers, where e^2 = 0. The vector
         y + v e represents x = (y, v), and q + m e represents p = (m, q). The coefficient of e in
         <q + m e, y + v e> is <m, y> + <q, v>, the value of p at x.
         """
@@ -213,15 +213,15 @@ class AlgebraVectors(Representation):
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group if its elements are the rotation matrices of R^3. Otherwise return None.
 
-        For these matrices, Ad_g is multiplication by g: Ad_g v = g v.
+        For a rotation matrix g of R^3, Ad_g v = g v.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
 
 
 class MatrixColumns(Representation):
-    """Copies of the space of columns. An element g of the group acts on a column by multiplication with the
-    matrix of g.
+    """One or more copies of the space of columns with n entries. An element of the group acts on a column by
+    multiplication with its n x n matrix.
     """
 
     needs = MatrixRepresentation
@@ -279,8 +279,8 @@ class MatrixColumns(Representation):
         """Return the derivatives of <p, phi(x) u> with respect to x and u. For phi see :meth:`translation`.
 
         Let A be the matrix of x, and M = [[A, u], [0, 0]]. The last column of exp(M) contains phi(x) u.
-        The method evaluates the derivative of exp at M^T, which is the transpose of the derivative at M. The
-        direction is the matrix with p in the last column and zeros elsewhere.
+        Let P be the matrix with p in the last column and zeros elsewhere. The gradient of <p, phi(x) u> with
+        respect to the entries of M is the derivative of exp at M^T in the direction P.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -302,12 +302,12 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group, because each element acts on columns by its matrix."""
+        """Return the group. Each element acts on columns by multiplication with its matrix."""
         return self._matrices(group)
 
 
 class PlaneVectors(MatrixColumns):
-    """Copies of R^2, on which SO(2) acts by rotations."""
+    """One or more copies of R^2. SO(2) acts on each copy by rotations."""
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return R^-1 v = R^T v, where R is the rotation matrix of g."""
@@ -341,8 +341,8 @@ class PlaneVectors(MatrixColumns):
 
         Let x = (w, u) and v = (y, q) with numbers w, y and vectors u, q. Let J be the rotation by a right
         angle: J(s, t) = (-t, s). Then ad_x v = (0, r) and ad_x^2 v = (0, w J r) with r = w J q - y J u.
-        The product ``word`` is equal to 1 + b ad_x + c ad_x^2 with numbers b and c. The result is
-        (y, q + b r + c w J r).
+        The factors of ``word`` are power series with the constant term 1. Their product is
+        1 + b ad_x + c ad_x^2 with numbers b and c. The result is (y, q + b r + c w J r).
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)
