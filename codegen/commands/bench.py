@@ -68,19 +68,20 @@ def command(
     """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and measure
     error and run time.
 
-    With --adaptive, methods run with step-size control. The tableau must have an embedded method for the
+    With --adaptive, methods run with step-size control. Their tableaux must have an embedded method for the
     error estimate. Examples are ambient:dop853, rkmk(3):dormand_prince5 and ambient:radau2a3.
 
-    With --against, other integrators (peers) also run: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
-    diffrax, c-dop853, c-rk4-projected. The name 'scipy' selects all installed peers of SciPy, 'c' selects all
-    peers in C, and 'all' selects all installed peers.
+    With --against, other integrators (peers) also run. Their names are scipy-lsoda, scipy-dop853,
+    scipy-dop853-projected, scipy-radau, scipy-radau-projected, heyoka, diffrax, c-dop853 and c-rk4-projected.
+    The name 'scipy' selects all installed peers of SciPy, 'c' selects all peers in C, and 'all' selects all
+    installed peers.
 
     The equations of a scene may have several classical forms, for example with a quaternion instead of a
     rotation matrix. The methods ambient:TABLEAU and most peers run on each form. The table of the fastest
     methods shows only the fastest form of a method or peer.
 
     If a measurement with -o is interrupted, repeat the command to continue the measurement. If a run fails,
-    its row contains the reason. The exit status is 1 if a method or peer has no successful run.
+    its row contains the reason. If a method or peer has no successful run, the exit status is 1.
 
     \b
     Examples:
@@ -114,8 +115,8 @@ def command(
 def show(result: Result) -> None:
     """Print three tables, and the paths of the written files.
 
-    The first table lists all runs. The second table lists the two fastest methods for each error 10^-k. The
-    third table lists the times of emission and compilation.
+    The first table lists all runs. For several errors 10^-k, the second table lists the two fastest
+    methods. The third table lists the times of emission and compilation.
     """
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration

@@ -1,4 +1,4 @@
-"""``orderconds converge``: compare the observed order of emitted integrators with the stated order."""
+"""``orderconds converge``: measure the order of emitted integrators."""
 
 from __future__ import annotations
 
@@ -36,13 +36,12 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="With 'strict', measure the order with 50 digits on built-in scenes, and omit SCENE. The default "
-    "of --stated is then the order that the tableau claims.",
+    help="With 'strict', measure the order with 50 digits on built-in scenes, and omit SCENE.",
 )
 @click.option(
     "--stated",
     type=click.IntRange(1, 20),
-    help="The stated order of the methods, which is compared with the observed order.",
+    help="The order that is compared with the observed order.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -60,9 +59,9 @@ def command(
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
     The command compares the observed order of a method with a stated order. The option --stated sets the
-    stated order. By default, the stated order follows from the order conditions. With --protocol strict, an
-    order that the tableau claims is preferred. If a method cannot be emitted for the scene, the command
-    prints the reason.
+    stated order. The default is the order that the order conditions give. With --protocol strict, the default
+    is the order in the tableau file, if the file gives one. If a method cannot be emitted for the scene, the
+    command prints the reason.
 
     The exit status is 0 if every observed order equals the stated order. The exit status is 1 if an observed
     order differs from the stated order or is undecided, or if a method cannot be emitted.

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     "-m",
     required=True,
     shell_complete=completing(method_names, files=True),
-    help="TABLEAU or FAMILY:TABLEAU, such as cf4, vcg:triple_jump, 'rkmk(2):rk4'.",
+    help="The method: TABLEAU or FAMILY:TABLEAU, such as cf4, vcg:triple_jump, 'rkmk(2):rk4'.",
 )
 @targets_option
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
-    "--batch", is_flag=True, help="Also emit a C function that advances many independent systems at once."
+    "--batch", is_flag=True, help="Also emit a C function that steps many copies of the system at once."
 )
 @click.option(
     "--adaptive",
@@ -69,13 +69,13 @@ if TYPE_CHECKING:
     "--integrate",
     is_flag=True,
     help="Also emit a function that integrates to a given end time. The function accepts output times "
-    "and bounds on the step size. A call can continue an earlier run.",
+    "and bounds on the step size. A call can continue the run of an earlier call.",
 )
 @click.option(
     "--dense",
     is_flag=True,
-    help="Compute the state at an output time with the continuous extension of the tableau, not with a "
-    "shorter step. This option implies --integrate.",
+    help="Compute the states at output times with the continuous extension of the tableau. By default, "
+    "shorter steps compute these states. This option implies --integrate.",
 )
 @click.option(
     "--events",
@@ -88,7 +88,7 @@ if TYPE_CHECKING:
 @click.option(
     "--compensate",
     is_flag=True,
-    help="Use compensated (Kahan) summation. The state then also stores the rounding error of each "
+    help="Use compensated (Kahan) summation. The state stores the rounding error of each "
     "coordinate, and the next step corrects this error.",
 )
 @click.option(
@@ -103,7 +103,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each compiler pass, and the number of operations that each pass removes. "
+    help="Print the operations of a step after each compiler pass, and the number of removed operations. "
     "For a lattice, also measure the memory bandwidth of a step.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
@@ -128,8 +128,8 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    For an implicit method, the command tests solvers in a few steps from the initial state of the scene. If
-    no solver converges, the command prints a warning.
+    For an implicit method, --solver auto tests solvers of the implicit equations. The tests are a few steps
+    from the initial state of the scene. If no solver converges, the command prints a warning.
 
     Without -o, the command only prints a description of the module, and --explain or --json is required.
 
@@ -191,7 +191,8 @@ def _write(
 ) -> None:
     """Write the files of all modules to the folder ``output``. If ``output`` is None, no file is written.
 
-    If ``as_json`` is True, print one JSON record for each module. Otherwise print the paths of the files.
+    If ``as_json`` is True, print one JSON record for each module, with ``family_chosen`` and the entries of
+    ``more``. If ``as_json`` is False, print the paths of the written files.
     """
     records: list[dict[str, object]] = []
     for artifact in artifacts:
@@ -232,9 +233,9 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note about the family that the compiler has chosen for a method on a Hamiltonian scene.
+    """Return a note if the compiler has chosen the family of a method.
 
-    If ``method`` contains a family, or if the scene is not Hamiltonian, the result is ''.
+    If ``method`` names its family, or if the scene is not Hamiltonian, the result is ''.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -250,11 +251,11 @@ def family_note(compiled: Compiled, method: str) -> str:
         if family != compiled.method.family and formats in family_class(family).formats
     ]
     other = f"; an alternative is {others[0]}:{compiled.method.name}" if others else ""
-    return f"{method.strip()} contains no family; the method is emitted as {compiled.method.label}{other}"
+    return f"{method.strip()} is given without a family; it is emitted as {compiled.method.label}{other}"
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each system of implicit equations for which no solver converges."""
+    """If no solver converges for a system of implicit equations, print a warning."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
@@ -263,8 +264,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
-    The text contains the program after each compiler pass, and the numbers of operations. The last section
-    lists the operations and arguments that the compiler has left out, with reasons.
+    The text lists and counts the operations of a step after each compiler pass. The last section lists each
+    omitted operation or argument, and the reason for the omission.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -308,7 +309,7 @@ def solvers_of(compiled: Compiled) -> list[str]:
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
-    """Return a dictionary with the name, the number of calls and a description for each outlined function.
+    """For each outlined function, return its name, the number of its calls and a description.
 
     An outlined function replaces a group of operations that occurs several times in a step.
     """

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
-    From the emitted operations, the command computes the new state of a step as a power series in the step
-    size h. The coefficients are exact. The power series is compared with the Taylor series of the solution.
-    The field must be a rational function of the coordinates. Initial coordinates that are not rational are
+    The command computes the state after one emitted step as a power series in the step size h. The
+    coefficients are exact. The power series is compared with the Taylor series of the solution. The vector
+    field must be a rational function of the coordinates. Initial coordinates that are not rational are
     replaced by nearby rational numbers.
 
-    The exit status is 1 if the exact order is below the order that follows from the order conditions. The
-    exit status is also 1 if the exact order cannot be computed. For example, the coefficients of the method
-    may be known only as intervals.
+    If the exact order is below the order that the order conditions give, the exit status is 1. If the exact
+    order cannot be computed, the exit status is also 1. A possible reason is that the coefficients of the
+    method are intervals, not exact numbers.
 
     \b
     Examples:
@@ -57,7 +57,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 
 
 def show(result: ExactLocalError | NotExact, first: bool) -> None:
-    """Print the leading coefficients of the local error and the verdict on the order.
+    """Print the leading coefficients of the local error, and whether the method has its order.
 
     If the local error cannot be computed exactly, print the reason instead.
     """

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps that ``--steps`` accepts. A shorter run is not enough to measure a drift."""
+"""The smallest number of steps that ``--steps`` accepts. In a shorter run, a drift cannot be measured."""
 
 
 @click.command(
@@ -61,12 +61,12 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    The column "law" contains a verdict on the relative deviation of a quantity: exact, bounded, random walk,
-    drift, rounding (rounding errors explain the deviation), lost (the deviation is about as large as the
-    quantity) or too short to tell. If a method conserves a quantity in exact arithmetic, the rounding errors
-    are measured with and without compensated summation. The root mean square (rms) of the rounding errors
-    over several initial states grows like a power of the number of steps. The column "steps^p" contains the
-    exponent p. The exit status is 1 if a run ends early or a method fails.
+    The column "law" classifies the relative deviation of a quantity from its initial value: exact, bounded,
+    random walk, drift, rounding (rounding errors explain the deviation), lost (the deviation is about as
+    large as the quantity) or too short to tell. If a method conserves a quantity in exact arithmetic, the
+    rounding errors are measured with and without compensated summation. The root mean square (rms) of the
+    rounding errors over several initial states grows like n^p, where n is the number of steps. The column
+    "steps^p" contains p. If a run ends early or a method fails, the exit status is 1.
 
     \b
     Examples:
@@ -82,7 +82,7 @@ def command(
 
     problem = scenes.with_one_system(scenes.load(scenes.with_values(scene, parameters)))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    # If h is NaN, both comparisons are false, and the error is raised.
+    # This form of the condition also rejects NaN.
     if not 1e-300 <= abs(h) <= 1e300:
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
@@ -111,9 +111,9 @@ def command(
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print a table of the measured properties, with one line for each method.
+    """Print whether each method is symplectic and symmetric, and whether a conserved quantity drifts.
 
-    If no properties were measured, nothing is printed.
+    If ``rows`` is empty, nothing is printed.
     """
     if not rows:
         return
@@ -126,10 +126,7 @@ def show_properties(rows: Sequence[Properties]) -> None:
 
 
 def show(run: LongRun) -> None:
-    """Print the results of one run: the drift of each conserved quantity, and other errors of the method.
-
-    One of these errors is the distance from the initial state after n steps forward and n steps back.
-    """
+    """Print the drift of each conserved quantity in one run, and the other measured errors."""
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [
         [

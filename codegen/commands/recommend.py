@@ -1,4 +1,4 @@
-"""``orderconds recommend``: find the fastest method with a required accuracy and required properties."""
+"""``orderconds recommend``: find the fastest method that reaches a given accuracy on a scene."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""If the reference solution takes at least this fraction of the budget, the output gives the fraction."""
+"""A reference solution that takes at least this fraction of the budget is mentioned in the output."""
 
 
 @click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")
@@ -119,7 +119,7 @@ def show(result: Recommendation) -> None:
 def control(asked: Request, place: Result) -> str:
     """Return the tolerance of a run with step-size control, or the step size of a run with equal steps.
 
-    If both are unknown, the result is ''.
+    If the step size is unknown, the result is ''.
     """
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
@@ -130,19 +130,17 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a text about the search: the numbers of compared methods, the time of the search, and
-    warnings.
-    """
+    """Return a text with the time of the search, the numbers of compared methods, and warnings."""
     text = (
         f"in {result.seconds:.0f} s, the CPU time was predicted for {result.predicted} methods and measured "
         f"for {result.raced} methods"
     )
     if result.kinks:
         text += (
-            f"; the solution crosses {result.kinks} points where the field is not smooth, which can lower "
+            f"; the solution crosses {result.kinks} points where the vector field is not smooth, which can "
         )
-        text += "the order of a method; the measured errors are valid only for the time span of this search"
-    text += "" if result.complete else "; the time budget ended the search; --budget S sets another budget"
+        text += "lower the order of a method; the measured errors are valid only for this time interval"
+    text += "" if result.complete else "; the time budget ended the search; increase --budget"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"
     return text + "".join(f"; {label} loses a conserved quantity in a long run" for label in result.lost)
@@ -158,7 +156,7 @@ def unreached(result: Recommendation) -> str:
     missed = f"no method{needs} reaches the error {asked.error:g}"
     if result.best is None and not result.complete:
         missed = f"no method{needs} was measured before the time budget ended"
-        return f"{asked.scene}: {missed}; to allow more time, give --budget S"
+        return f"{asked.scene}: {missed}; increase --budget"
     if result.best is None:
         return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best

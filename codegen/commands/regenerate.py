@@ -18,7 +18,7 @@ from orderconds.commands.place import FOLDER
     "--check",
     "check_only",
     is_flag=True,
-    help="Change nothing; the exit status is 1 if the folder differs from the newly emitted files.",
+    help="Change nothing. If the folder and the newly emitted files differ, the exit status is 1.",
 )
 @click.option(
     "--output",

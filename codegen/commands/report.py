@@ -45,11 +45,9 @@ from orderconds.commands.variadic import Variadic
     "--full",
     "effort",
     flag_value="full",
-    help="Measure all peers, and make runs of a million steps; each scene takes many minutes.",
+    help="Measure all peers (--against), and make runs of a million steps; each scene takes many minutes.",
 )
-@click.option(
-    "--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder to write index.html to."
-)
+@click.option("--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder for the pages.")
 @click.option(
     "--processes",
     type=click.IntRange(1),
@@ -74,16 +72,16 @@ def command(
     dipole and free_rigid_body.
 
     The command writes a page DIR/SCENE.html for each scene, and a page DIR/index.html with the fastest
-    methods for every scene. The measurements take one to two minutes for a Hamiltonian scene, and about half
-    a minute for other scenes. Several scenes are measured at the same time. All measured times are CPU times.
-    The processors share caches, so the times are a little shorter with --processes 1. With more than
-    eight scenes, the search for the fastest method takes less time for each scene. The growth of rounding
-    errors is then omitted, unless --full is given. If a report is interrupted, repeat the command to continue
-    the report. If a method fails, the page gives the reason. The pages need no network connection.
+    methods for every scene. A Hamiltonian scene takes one to two minutes, and other scenes take about half a
+    minute. Several scenes are measured at the same time. All measured times are CPU times. With --processes
+    1, the CPU times are slightly shorter, because only one scene uses the caches. For more than eight scenes,
+    the search for the fastest method is shortened, and only --full measures the growth of rounding errors. If
+    a report is interrupted, repeat the command to continue the report. If a method fails, the page gives the
+    reason. The pages need no network connection.
 
-    The exit status is 1 in three cases: an observed order differs from the order that follows from the order
-    conditions, a step with extremely large or small numbers gives a wrong result, or a method fails. The
-    command always writes the pages.
+    The exit status is 1 in three cases: an observed order contradicts the order conditions, a step with
+    extremely large or small numbers gives a wrong result, or a method fails. The command always writes the
+    pages.
 
     \b
     Examples:

@@ -43,9 +43,9 @@ def command(
 ) -> int:
     """Test single steps of emitted C on extreme inputs, and find the largest usable step.
 
-    The result of each step is compared with a result in 60 digits. An extreme input passes the test if the
-    result is accurate, or if the emitted code returns an error status. The exit status is 1 if an input does
-    not pass the test, or if a method cannot be emitted for the scene.
+    The result of each step is compared with a computation in at least 60 digits. An extreme input passes the
+    test if the result is accurate, or if the emitted code returns an error status. If an input does not pass
+    the test, or if a method cannot be emitted for the scene, the exit status is 1.
 
     \b
     Examples:
@@ -81,7 +81,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Run all stress tests of a job and return the results. ``progress`` is called with messages."""
+    """Return the results of all stress tests of a job. Before each test, call ``progress`` with a text."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability

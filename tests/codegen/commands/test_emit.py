@@ -210,7 +210,7 @@ def test_a_tableau_without_family_on_a_hamiltonian_scene_has_a_note():
 
     note, chosen = result("linear_oscillator", "rk4")
     assert note == (
-        "note: rk4 contains no family; the method is emitted as vrkmk(2):rk4; an alternative is vcg:rk4\n"
+        "note: rk4 is given without a family; it is emitted as vrkmk(2):rk4; an alternative is vcg:rk4\n"
     )
     assert chosen
     assert result("linear_oscillator", "vcg:rk4") == ("", False)

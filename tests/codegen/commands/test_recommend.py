@@ -134,6 +134,6 @@ def test_bad_input_is_one_message(words: tuple[str, ...], said: str) -> None:
 def test_a_budget_without_time_for_a_measurement_is_no_statement_about_methods():
     ended = Recommendation(Request("circle", 1e-6), (), None, 3, 0, 1.0, complete=False)
     assert unreached(ended) == (
-        "circle: no method was measured before the time budget ended; to allow more time, give --budget S"
+        "circle: no method was measured before the time budget ended; increase --budget"
     )
     assert "no method reaches the error 1e-06" in unreached(replace(ended, complete=True))

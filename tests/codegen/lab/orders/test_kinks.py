@@ -139,7 +139,7 @@ def test_no_slope_across_a_kink_decides_about_a_higher_order(slope: int) -> None
 def test_a_recommendation_states_the_number_of_kinks(kinks: int, said: bool) -> None:
     request = Request("scene", 1e-4, (), None, None, 5, ())
     text = searched(Recommendation(request, (), None, 1, 1, 0.0, kinks=kinks))
-    assert ("crosses 2 points where the field is not smooth" in text) == said
+    assert ("crosses 2 points where the vector field is not smooth" in text) == said
 
 
 def test_a_report_does_not_decide_an_order_across_a_kink() -> None:
