@@ -100,7 +100,7 @@ class InterpretedIntegrator(Integrator):
         except self.module.StepFailed as failure:
             failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
             if hasattr(failure, "t"):
-                # The argument 0 is the number of rejected steps. The correct number is not known here.
+                # The exception ``failure`` does not contain the number of rejected steps, so 0 is stored.
                 state, status = failed.state, failed.status
                 failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
             raise failed from None

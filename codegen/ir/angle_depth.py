@@ -18,7 +18,7 @@ def chain(kernel: Kernel) -> int:
 
     The depth is the largest number of nested Stumpff functions. The smallest depth is 1.
 
-    In two cases the depth is 1, because the rounding error of one angle is not multiplied by the next angle:
+    The depth is also 1 in two cases, in which rotations do not amplify previous rounding errors:
 
     - The kernel has implicit equations. Each iteration for these equations reduces the errors of all angles.
     - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).

@@ -1,4 +1,4 @@
-"""Array programs: lists of assignments to matrices. Emitted code contains loops for each assignment.
+"""Array programs: lists of assignments to matrices. Emitted code executes assignments in loops.
 
 Loops keep the code short for large matrices. A :class:`Matrix` is an array, or a rectangular part of an
 array. The scalars in a program are expressions (:mod:`codegen.ir.expr`). The entries of a constant matrix are
@@ -40,11 +40,11 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The distance between rows: ``stride``, or the number of columns if ``stride`` is 0."""
+        """The distance in the array between the first entries of successive rows."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the position of the entry (``row``, ``column``) in the array ``name``."""
+        """Return the index in the array ``name`` of the entry (``row``, ``column``) of this matrix."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
@@ -107,13 +107,14 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that may be non-zero: all entries, or the entries on ``diagonals``."""
+        """The number of entries on ``diagonals``. Without ``diagonals``, the number of all entries."""
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
 
     def values(self, domain: Domain, symbols: Mapping[str, Scalar]) -> Iterator[tuple[int, int, Scalar]]:
-        """Yield (row, column, value) for each entry that may be non-zero.
+        """Yield (row, column, value) for each entry on ``diagonals``, or for all entries if there are no
+        ``diagonals``.
 
         ``symbols`` maps the symbols in formulas to their values. All values are scalars of ``domain``.
         """
@@ -130,13 +131,12 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
-    # The entries are numbers.
     if isinstance(entry, tuple):
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # The formula is evaluated twice. The first evaluation replaces the symbols ``ROW`` and ``COLUMN`` by
-    # numbers. ``kept`` maps each symbol of the formula to itself.
+    # The formula is evaluated twice. The first evaluation replaces only the symbols ``ROW`` and ``COLUMN`` by
+    # numbers. The second evaluation replaces the other symbols by their values.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
         # The formula may compare indices to select a branch. In the first evaluation all indices are exact
@@ -225,7 +225,7 @@ class ArrayProgram:
     result: Matrix
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients of all terms, and the formulas for entries of constant matrices."""
+        """Yield the coefficients of linear combinations and the formulas for entries of constant matrices."""
         for statement in self.body:
             if isinstance(statement, Combination):
                 yield from (term.coefficient for term in statement.terms)
@@ -367,8 +367,9 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # If an entry of the target is a sum of k > 0 products, it needs k - 1 additions. If all entries
-            # are such sums, the total is ``products - size``. If many entries are zero, this may be negative.
+            # An entry of the target that is a sum of k > 0 products needs k - 1 additions. If all entries are
+            # such sums, the total is ``products - size``. If many entries are zero, the difference may be
+            # negative.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

@@ -5,11 +5,11 @@ the form B S B^T with the same n x r matrix B. The matrix B is the basis of the 
 is the core of the generator.
 
 The first k columns of B are the state X_0 at the start of the step. Let V be the value of the vector field at
-a point X of the step. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. The k columns of W become
-new columns of B. Hence r = k (m + 1) for a step with m evaluations of the vector field.
+a point X (an n x k matrix). The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. The k columns of W
+become new columns of B. Hence r = k (m + 1) for a step with m evaluations of the vector field.
 
 Both X and W are products of B and an r x k matrix: X = B C and W = B E. Hence the core of the generator at X
-is E C^T - C E^T. The point is stored as X = X_0 + B D, where the r x k matrix D is its displacement.
+is E C^T - C E^T. The point X is stored as X = X_0 + B D, where the r x k matrix D is the displacement of X.
 
 Let S and T be two cores, and let G = B^T B be the Gram matrix. Commutators and exponentials are computed by
 
@@ -34,12 +34,12 @@ from codegen.ir.expr import Expr
 
 TERMS = 8
 """The estimated cost of a step assumes this number of terms in the series of phi(z) = (exp(z) - 1)/z.
-Emitted code chooses the number of terms from the norm of z.
+In emitted code the number of terms depends on the norm of the generator.
 """
 
 MOST_TERMS = 18
-"""The largest number of terms in the series of phi(z) = (exp(z) - 1)/z. If the norm of z is at most 1, the
-omitted terms are smaller than the rounding errors.
+"""The largest number of terms in the series of phi(z) = (exp(z) - 1)/z for a matrix z. For matrices with a
+norm of at most 1, the omitted terms are smaller than the rounding errors.
 """
 
 
@@ -70,14 +70,16 @@ class Move:
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications, with :data:`TERMS` terms in the series of
-        phi(z) = (exp(z) - 1)/z.
+        """The numbers of additions and multiplications of this statement.
+
+        The series of phi(z) = (exp(z) - 1)/z is assumed to have :data:`TERMS` terms.
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The last formula at the beginning of this module gives the new point. The four summands are the
-        # multiplications for G S, for the norm of G S, for G C, and for S phi(G S) G C. Each of the
-        # ``TERMS`` terms of phi needs one product with the matrix G S. The factor S needs one more product.
+        # The last formula at the beginning of this module gives the new point. S and G S are m x m matrices.
+        # The four summands are the multiplications for G S, for the norm of B S B^T, for G C, and for
+        # S phi(G S) G C. Each of the ``TERMS`` terms needs one product with G S. The factor S needs one more
+        # product. In addition, each term is multiplied by a number.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -114,19 +116,19 @@ class ArrayStep:
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:
-        """Return the numbers of additions and multiplications of the step, with :data:`TERMS` terms in each
-        series of phi.
+        """Return the numbers of additions and multiplications of the step.
+
+        Each series of phi is assumed to have :data:`TERMS` terms.
         """
         total = {"add": 0, "mul": 0}
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
-                    # A number is added to each diagonal entry of ``target``.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations
                 case _:
                     own = operations(statement)
-            # For :class:`AddUnit`, the dictionary ``own`` has no key ``mul``, so 0 is added.
+            # An :class:`AddUnit` needs no multiplications, so ``own`` has no key ``mul``.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

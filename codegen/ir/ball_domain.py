@@ -48,8 +48,8 @@ GUARD = 32
 class BallDomain:
     """An arithmetic with ``digits`` decimal digits. Its scalars are midpoints of Arb balls.
 
-    ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
-    scalars, and :meth:`mpf` converts a scalar to an mpmath number. Let n be
+    The step size ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these
+    types to scalars, and :meth:`mpf` converts a scalar to an mpmath number. Let n be
     :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute value of
     2^n or more, OverflowError is raised.
     """
@@ -62,7 +62,7 @@ class BallDomain:
             # 10^-digits.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # If a fixed-point iteration has not converged after this number of sweeps, Newton's method is used.
+        # If a fixed-point method has not converged after this number of iterations, Newton's method is used.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -70,8 +70,8 @@ class BallDomain:
         return precision(self.bits)
 
     def scalar(self, x: Scalar) -> arb:
-        """Convert a float, an mpmath number or a Fraction to a scalar. Floats and mpmath numbers are
-        converted exactly.
+        """Convert a float, an mpmath number or a Fraction to a scalar. A Fraction is rounded to the working
+        precision. Other numbers are not rounded.
         """
         if isinstance(x, Fraction):
             return self.rational(x.numerator, x.denominator)
@@ -138,8 +138,8 @@ class BallDomain:
         if isinstance(called, MatrixExponential):
             return exponential(called.n, called.level, self.bits, numbers)
         if isinstance(called, ExponentialAction):
-            # The result is exp(A) y with a matrix A and a vector y. Emitted code never forms the matrix
-            # exp(A), but this domain does.
+            # The result is exp(A) y with a matrix A and a vector y. Unlike emitted code, this domain forms
+            # the matrix exp(A).
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
@@ -225,27 +225,27 @@ class BallDomain:
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return the pair (converged, change) of an iteration.
+        """Return the pair (converged, change) after an iteration from the values ``old`` to ``new``.
 
         ``change`` is the largest absolute difference between ``old`` and ``new``. ``previous`` is the change
-        of the previous sweep, or None. If the change is zero, the iteration has converged. A positive change
-        must satisfy two conditions:
+        in the previous iteration, or None in the first iteration. If the change is zero, the values
+        have converged. If the change is positive, convergence requires two conditions:
 
         - The change is of the size of the rounding errors. It is at most 2^12 eps max(1, m), where m is the
           largest absolute value in ``old``, and eps is about 10^-``digits``.
         - The change no longer decreases: it is not smaller than ``previous``.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
-        # For a NaN all comparisons below are false. Without this test the iteration would continue up to the
-        # largest permitted number of sweeps.
+        # For a NaN all comparisons below are false. Without this test the caller would continue up to the
+        # largest permitted number of iterations.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
-        # The factor 4096 = 2^12 allows for the accumulated rounding errors of all operations of a sweep.
+        # The factor 4096 = 2^12 allows for the accumulated rounding errors of an iteration.
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
-        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return an increment d for which the difference quotient (f(x + d) - f(x))/d is accurate."""
         # Let eps be about 10^-``digits``. For abs(x) <= 1, the difference quotient has a rounding error of
         # about eps/d and a truncation error of about d. These errors are equal for d = sqrt(eps). For
         # abs(x) > 1, d is sqrt(eps) abs(x).

@@ -46,7 +46,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # The node is treated as an atom. Its linear combination has one term with the coefficient 1.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The expressions in ``bare`` do not change, so their operations are not counted.
+    # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
@@ -75,7 +75,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     y^3 becomes 1/(x sqrt x).
 
     If a power of y is used only in other powers of y, it is an intermediate value. All other powers of y are
-    final values. The powers of y are rewritten if each final value has an odd exponent n >= 3.
+    final values. If all final values of y have odd exponents n >= 3, the powers of y are rewritten.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
@@ -132,7 +132,7 @@ class _Gathering:
         # combinations of the arguments.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # The linear combination is stored, so that it is computed only once for each node.
+                # A node may occur in several roots. The stored linear combination is used again.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
@@ -142,7 +142,7 @@ class _Gathering:
         A term c (1/y) becomes (c/e) (e/y). The method :meth:`_inverse` selects the positive number e.
         """
         if node.id not in self.written:
-            # The expression is stored, so that it is built only once for each node.
+            # A node may occur in several expressions. The stored expression is used again.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -222,7 +222,7 @@ class _Gathering:
     def _content(self, node: Expr) -> tuple[Number, Expr]:
         """Return a number c and an expression x such that the node equals c x.
 
-        If the node is a sum of several terms, or zero, c is 1.
+        If the node is zero or a sum of several terms, c is 1 and x is the whole node.
         """
         total = self.sums[node.id]
         # A sum is not divided by a common factor, because other expressions may contain the same sum.
