@@ -79,7 +79,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(
                 _plan(plan, deferred.begin),
                 BEGIN,
-                "First flow of a step, if the previous step does not include it.",
+                "First flow of a step, if the step before does not include it.",
             )
         )
     if deferred.finish is not None:

@@ -331,7 +331,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn4_advance(double stat
     state[11] = new_mu2;
 }
 
-/* First flow of a step, if the previous step does not include it. */
+/* First flow of a step, if the step before does not include it. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn4_begin(double state[static 12],
     double h)
 {

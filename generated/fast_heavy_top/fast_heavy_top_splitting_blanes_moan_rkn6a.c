@@ -540,7 +540,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_advance(double sta
     state[11] = new_mu2;
 }
 
-/* First flow of a step, if the previous step does not include it. */
+/* First flow of a step, if the step before does not include it. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_begin(double state[static 12],
     double h)
 {

@@ -498,7 +498,7 @@ def _advance(state, h, lead_h):
 
 
 def _begin(state, h):
-    """First flow of a step, if the previous step does not include it."""
+    """First flow of a step, if the step before does not include it."""
     try:
         g01 = state[1]
         g02 = state[2]

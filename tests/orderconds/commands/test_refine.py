@@ -45,7 +45,7 @@ def test_floats_without_a_closed_form_and_exact_tableaux_exit_1(tmp_path: Path) 
     wrong.write_text('{"A": [[0.0]], "b": [0.7182818284590452]}')
     exact = tmp_path / "exact.csv"
     exact.write_text("A,0\nb,1\n")
-    for path, message in ((wrong, "fractions or numbers p + q sqrt(d)"), (exact, "exact already")):
+    for path, message in ((wrong, "fractions and numbers p + q sqrt(d)"), (exact, "exact already")):
         result = CliRunner().invoke(program, ["refine", str(path), "--json"])
         assert result.exit_code == 1
         assert message in result.stderr

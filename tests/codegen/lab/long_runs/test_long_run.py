@@ -191,7 +191,13 @@ def test_the_command_prints_every_kept_quantity():
     )
     assert done.exception is None
     assert done.return_value == 0
-    for word in ("energy", "momentum_about_vertical", "manifold", "forward and back", "symplectic defect"):
+    for word in (
+        "energy",
+        "momentum_about_vertical",
+        "manifold",
+        "steps forward and as many back",
+        "symplectic defect",
+    ):
         assert word in done.output
 
 
