@@ -28,8 +28,8 @@ SINGLE_IS = (
     "single: exact constants are rounded to single precision, and implicit stages converge to this precision"
 )
 
-NOT_SMOOTH = "a step has this order if the field is smooth along the whole step"
-"""The header of emitted code contains this remark if the field of the scene is not smooth."""
+NOT_SMOOTH = "a step has the order in this header if the vector field is smooth along the whole step"
+"""A remark in the header of an emitted module. It appears if the vector field of the scene is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps in the lines 'solved by' are for double precision"
@@ -90,11 +90,11 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the header line about the memory that a step needs.
 
-    Only a method with a low-storage scheme has such a line.
+    There is no such line if the method has no low-storage scheme.
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; each site also stores two more states, so that neighbours can read the old state"
+        text = f"{text}; each site also stores two more states, because its neighbours read its old state"
     return (("storage", text),) if text else ()
 
 
@@ -148,7 +148,7 @@ def steps_of(kernel: Kernel) -> str:
     """Return the text of the header line that says how a run chooses its step sizes."""
     if kernel.expansion is not None:
         last = kernel.expansion.degree
-        return f"constant, or chosen from the Taylor coefficients of the degrees {last - 1} and {last}"
+        return f"constant, or chosen from the solution's Taylor coefficients of degrees {last - 1} and {last}"
     assert kernel.estimate is not None
     return (
         f"constant, or chosen by a proportional-integral controller; "
@@ -159,13 +159,13 @@ def steps_of(kernel: Kernel) -> str:
 def substeps_of(kernel: Kernel) -> str:
     """Return the text of the header line about the substeps of a step."""
     each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
-    return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
+    return f"{len(kernel.substeps)} calls of one function; the step sizes are these multiples of h: {each}"
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each operation or argument that the module does not need.
+    """Return the entries of the header line ``left out``.
 
-    The line also gives the reason.
+    An entry names an operation or argument that the module does not need, and the reason.
     """
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]

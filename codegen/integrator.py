@@ -2,7 +2,7 @@
 
 A state is a flat sequence of numbers, a NumPy array, or a tuple such as (q, mu). A batch of states is an
 array with one state in each row (:mod:`codegen.state_form`). The methods return states of the type that the
-caller passed. Only ``run_batch`` always returns an array.
+caller passed. The exception is ``run_batch``, which always returns an array.
 """
 
 from __future__ import annotations
@@ -147,8 +147,8 @@ class Integrator(RunToEnd):
         If ``steps`` is given, the list contains the initial state and every ``stride``-th state after it.
 
         ``t_eval`` is a monotone sequence of times, and ``t`` is the time of the initial state. If ``t_eval``
-        is given, the list contains the states at these times. A step ends at each of these times, so steps
-        may be shorter than ``h``.
+        is given, the list contains the states at these times. A step ends at each of these times. Between
+        two successive times, the steps have equal sizes of at most abs(h).
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -263,8 +263,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted - rejected)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If one step reaches ``time``, this step may have been shortened to end there. In this case,
-            # ``arrival.h`` may be too small. Therefore the larger of ``h`` and ``arrival.h`` is used.
+            # A single step to ``time`` may have been shortened to end there. Then ``arrival.h``, which
+            # depends on the shortened size, may be too small. The larger of ``h`` and ``arrival.h`` is used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -285,7 +285,7 @@ class Integrator(RunToEnd):
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
         - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
-        - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
+        - ``inputs`` are the values of the M run-time inputs, of shape (M,) or (N, M). They are constant.
         - ``out`` is an array for the new states, of shape (N, size) in Fortran order. If ``out`` and
           ``states`` are the same array, the states are not copied.
         - A parameter is a number, or an array of N numbers.
@@ -374,8 +374,8 @@ class Integrator(RunToEnd):
     ) -> Begun:
         """Check the arguments of a run, and return an object that contains them.
 
-        TypeError is raised for an unknown parameter, and for wrong ``inputs`` or ``statistics``. ValueError
-        is raised for a wrong state.
+        TypeError is raised for unknown or missing parameters, and if ``inputs`` or ``statistics`` does not
+        fit the module. ValueError is raised for a wrong state.
         """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
@@ -408,7 +408,7 @@ class Integrator(RunToEnd):
         return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Update ``statistics`` with the iteration counts from one call of emitted code."""
+        """Update ``statistics`` with the numbers of iterations for implicit equations in one call."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -422,12 +422,13 @@ class Integrator(RunToEnd):
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Make ``steps`` steps of size h. Return the final state and a sequence of states.
 
-        If ``stride`` is not 0, the sequence contains every ``stride``-th state.
+        The sequence contains the initial state and every ``stride``-th state after it. If ``stride`` is 0,
+        the sequence is empty.
         """
 
     @abstractmethod
     def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
-        """Return the rows of the Jacobian matrix of one step. ``held`` are the run-time inputs."""
+        """Return the rows of the Jacobian matrix of one step. ``held`` are the values of the inputs."""
 
     @abstractmethod
     def _adapt(

@@ -44,8 +44,8 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). Two
-    columns of g are rotated. The cross product of the rotated columns is the column ``dependent``.
+    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). It
+    rotates the other two columns of g. Their cross product is the column ``dependent`` of the result.
     """
 
     name = "SO(3)"
@@ -60,7 +60,7 @@ class SO3(
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return this implementation, and one implementation for each column that may be dependent.
+        """Return this implementation, and one implementation for each choice of the dependent column.
 
         A dependent column is computed as the cross product of the other two columns.
         """
@@ -147,8 +147,8 @@ class SO3(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu, which is equal to dexp_{-x} mu.
 
-        The formula is mu - c_2 (x cross mu) + c_3 (x cross (x cross mu)). The numbers c_2 and c_3 are the
-        values of the Stumpff functions at x.x.
+        The formula is mu - c_2 (x cross mu) + c_3 (x cross (x cross mu)). Here c_2 and c_3 are the values of
+        the Stumpff functions with the indices 2 and 3 at x.x.
         """
         z = dot(x, x)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -157,11 +157,11 @@ class SO3(
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W v, where W is the product ``word`` of functions of ad_x. If ``dual`` is true,
+        """Return W v, where W is the product of the functions of ad_x in ``word``. If ``dual`` is true,
         ad*_x = -ad_x replaces ad_x.
 
-        Each function is a power series with the constant term 1. On so(3), ad_x^3 = -(x.x) ad_x.
-        Therefore W = 1 + b ad_x + c ad_x^2 with numbers b and c.
+        Each function is a power series with the constant term 1. Because of ad_x^3 = -(x.x) ad_x, the
+        product reduces to W = 1 + b ad_x + c ad_x^2 with numbers b and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -184,8 +184,8 @@ class SO3(
         ad*_x = -ad_x replaces ad_x. The sum is computed as A + x cross (B + x cross C), where A, B and C are
         linear combinations of the vectors v.
 
-        The optional function ``total`` computes the sum of the vectors f v over some terms. Its argument
-        contains the indices of these terms.
+        If the function ``total`` is given, it computes sums of the vectors f v. Its argument contains the
+        indices of the summed terms.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -232,8 +232,8 @@ class SO3(
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules for products of entries of the first row.
 
-        For j <= k, the product g_0j g_0k is replaced by delta_jk - g_1j g_1k - g_2j g_2k. Here delta_jk is 1
-        if j = k, and 0 otherwise.
+        For j <= k, a rule replaces g_0j g_0k by delta_jk - g_1j g_1k - g_2j g_2k. Here delta_jk is 1 if
+        j = k, and 0 if j < k. The names of the entries g_ij are in ``q``, row by row.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
@@ -281,7 +281,7 @@ class SO3(
         return tuple((mu[i] + n[i]) + ((c1 * v[i] + c2 * (p[i] + w[i])) + c3 * q[i]) for i in range(3))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^T g = 1 and det g = 1, as pairs of a text and a residual."""
+        """Return pairs (name, residual) for the equations g^T g = 1 and det g = 1."""
         columns, (one, zero) = [g[j::3] for j in range(3)], (d.rational(1), d.rational(0))
         pairs = [(i, j) for i in range(3) for j in range(i, 3)]
         gram = [dot(columns[i], columns[j]) - (one if i == j else zero) for i, j in pairs]
@@ -289,7 +289,7 @@ class SO3(
         return (*(("g^T g = 1", x) for x in gram), ("det g = 1", determinant))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g (3 - g^T g)/2: one Newton step towards the polar factor of g."""
+        """Return g (3 - g^T g)/2: one Newton-Schulz step towards the orthogonal polar factor of g."""
         transposed = tuple(g[3 * i + j] for j in range(3) for i in range(3))
         half, three = d.rational(1, 2), d.rational(3)
         gram = matmul(transposed, g, 3)
@@ -299,7 +299,7 @@ class SO3(
     def determined(self) -> tuple[tuple[int, ...], ...]:
         """Return six tuples: the indices of the entries of each row and of each column, rows first.
 
-        Each row is the cross product of the other two rows in cyclic order. The same is true for columns.
+        Each row is the cross product of the other two rows, and each column of the other two columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
@@ -308,7 +308,7 @@ class SO3(
         """Compute a missing row or column of g, and return the complete matrix.
 
         ``missing`` contains the indices of the missing entries. A row is the cross product of the next two
-        rows in cyclic order. The same is true for columns.
+        rows in cyclic order. A column is the cross product of the next two columns in cyclic order.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -335,7 +335,7 @@ class SO3(
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the rotation matrix of a unit quaternion q.
 
-        It maps a vector x to the imaginary part of q (0, x) q^c, where q^c is the conjugate of q.
+        The matrix maps a vector x to the imaginary part of q (0, x) q^c. Here q^c is the conjugate of q.
         """
         one, double = d.rational(1), tuple(d.rational(2) * a for a in q[1:])
         squares = tuple(a * b for a, b in zip(double, q[1:], strict=True))
@@ -349,8 +349,8 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return |q|^2 times the rotation matrix of the quaternion q. ``diagonal`` is the diagonal of the
-        result, and ``double`` is twice the imaginary part of q.
+        """Return |q|^2 times the rotation matrix of q/|q|. ``diagonal`` is the diagonal of the result, and
+        ``double`` is twice the imaginary part of q.
         """
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
@@ -361,9 +361,7 @@ class SO3(
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation matrix
-        is g.
-        """
+        """Return 4 w^2, 4 x^2, 4 y^2, 4 z^2 for a unit quaternion (w, x, y, z) with the rotation matrix g."""
         one = d.rational(1)
         return (
             one + (g[0] + g[4] + g[8]),

@@ -1,4 +1,4 @@
-"""Sp(2n): linear canonical transformations."""
+"""Sp(2n): the symplectic 2n x 2n matrices."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group. Each equation is a pair of a text and a residual.
+        """Return the equations of the group as pairs (name, residual).
 
         The equations say that g^T g = 1, that the two diagonal blocks of g are equal, and that the sum of the
         other two blocks is zero.
@@ -77,9 +77,7 @@ class SU(Unitary):
         return (*upper, *lower)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the unitary group and the equation det g = 1, as pairs of a text and a
-        residual.
-        """
+        """Return pairs (name, residual) for the equations of U(n) and for det g = 1."""
         n, width = self.rows, self.n
         rows = [[(g[width * i + j], g[width * (n + i) + j]) for j in range(n)] for i in range(n)]
         real, imaginary = _complex_determinant(rows)

@@ -22,9 +22,9 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair for each constant entry: the text of an equation, and the residual at g.
+        """Return a pair (name, residual) for each constant entry of g.
 
-        The entries on the diagonal are 1, and all other constant entries are 0.
+        The constant entries are 1 on the diagonal, and 0 elsewhere.
         """
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
@@ -36,8 +36,8 @@ class Heisenberg(Unitriangular):
     """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices. Above the
     diagonal, all entries outside the first row and the last column are zero.
 
-    The basis of the algebra begins with the matrices E_1j with 1 < j < n + 2. The matrices E_i(n+2) with
-    1 < i < n + 2 follow. The last matrix is E_1(n+2).
+    The basis of the algebra begins with the elementary matrices E_1j with 1 < j < n + 2. The matrices
+    E_i(n+2) with 1 < i < n + 2 follow. The last matrix is E_1(n+2).
     """
 
     def __init__(self, n: int) -> None:
