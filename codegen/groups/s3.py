@@ -18,13 +18,13 @@ from codegen.ir.number import Number
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3) with real part q0 and Hamilton's product.
 
-    An element x of the algebra is a vector of R^3, the imaginary part of a pure quaternion (H. Marthinsen's
-    thesis, section 2.6). In the formulas below, g^c is the conjugate of g, z = |x|^2, and c_k are the Stumpff
-    functions.
+    An element of the algebra is a vector x of R^3, which represents the pure quaternion (0, x) (H.
+    Marthinsen's thesis, section 2.6). In the formulas below, g^c is the conjugate of g, z = |x|^2, and c_k
+    are the Stumpff functions.
 
-    - The bracket is [x, y] = x y - y x = 2 (x cross y). Its dual is ad*_x mu = 2 (mu cross x).
-    - The adjoint action Ad_g x = g x g^c is a rotation of R^3. Its dual is Ad*_g mu = g^c mu g.
-    - The exponential is exp(x) = (c_0(z), c_1(z) x). The quaternion exp(x) rotates vectors about x by the
+    - The bracket is [x, y] = x y - y x = 2 (x cross y). The dual of ad_x is ad*_x mu = 2 (mu cross x).
+    - The adjoint action Ad_g x = g x g^c is a rotation of R^3. The dual is Ad*_g mu = g^c mu g.
+    - The exponential is exp(x) = (c_0(z), c_1(z) x). Ad_exp(x) is the rotation about the axis x by the
       angle 2|x|.
     - The differential of the exponential is dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
@@ -71,22 +71,23 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return z = 4 |x|^2. The number z satisfies ad_x^3 = -z ad_x."""
+        """Return the number z = 4 |x|^2, which satisfies ad_x^3 = -z ad_x."""
         four: S = d.rational(4)
         return four * dot(x, x)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return 2 (x cross y)."""
+        """Return [x, y] = 2 (x cross y)."""
         return tuple(d.rational(2) * a for a in cross(x, y))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return 2 (mu cross x)."""
+        """Return ad*_x mu = 2 (mu cross x)."""
         return self.ad(d, mu, x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^c, where g^c is the conjugate of g.
 
-        For g = (q0, q), the result is x + 2 q0 (q cross x) + 2 q cross (q cross x).
+        If g has the real part q0 and the imaginary part q, the result is
+        x + 2 q0 (q cross x) + 2 q cross (q cross x).
         """
         return self._rotated(d, g[0], g[1:], x)
 
@@ -106,7 +107,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu = mu - c_2 v + c_3 ((2 x) cross v) with v = (2 x) cross mu.
 
-        The numbers c_2 and c_3 are the values of two Stumpff functions at 4 |x|^2.
+        The numbers c_k are the values of the Stumpff functions at 4 |x|^2.
         """
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
@@ -116,7 +117,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(m - c2 * a + c3 * b for m, a, b in zip(mu, v, w, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the quaternion product (0, x) g."""
+        """Return x.g, the quaternion product (0, x) g."""
         pairs = zip(x, cross(x, g[1:]), strict=True)
         return (-dot(x, g[1:]), *(g[0] * a + b for a, b in pairs))
 
@@ -125,12 +126,12 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return self._rotated(d, -g[0], g[1:], x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return one replacement rule: q0^2 becomes 1 - q1^2 - q2^2 - q3^2."""
+        """Return the equation |q|^2 = 1 as a rule that replaces q0^2 by 1 - q1^2 - q2^2 - q3^2."""
         minus = Number.rational(-1)
         return (((q[0], q[0]), ((Number.rational(1), ()), *((minus, (a, a)) for a in q[1:]))),)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return the quaternion product g (0, x)."""
+        """Return g.x, the quaternion product g (0, x)."""
         pairs = zip(x, cross(g[1:], x), strict=True)
         return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
 
@@ -147,5 +148,5 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair: the text of the equation |q|^2 = 1, and the residual |g|^2 - 1."""
+        """Return one pair (text, residual) for the equation |g|^2 = 1."""
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

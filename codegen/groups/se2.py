@@ -21,7 +21,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
 
     - The bracket is [(w, u), (w', u')] = (0, w J u' - w' J u).
     - The motion exp(w, u) rotates by w and translates by (c_1 + c_2 w J) u.
-    - The identity ad_x^3 = -w^2 ad_x implies dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
+    - The equation ad_x^3 = -w^2 ad_x implies dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
@@ -54,14 +54,14 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return ((one - square) * factor, w * factor, *translation)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y = y - [x, y]/2 + w w' x/4 for x = (w, u) and y = (w', u')."""
+        """Return dcay^{-1}_x y = y - [x, y]/2 + w w' x/4 for the angular velocities w of x and w' of y."""
         factor, half = d.rational(1, 4) * (x[0] * y[0]), d.rational(1, 2)
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, self.ad(d, x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the element with the matrix X Y X, where X and Y are the 3 x 3 matrices of x and y.
 
-        For x = (w, u) and y = (w', u'), the result is -w w' x.
+        The result is -w w' x for the angular velocities w of x and w' of y.
         """
         factor = -(x[0] * y[0])
         return tuple(factor * a for a in x)
@@ -122,7 +122,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu for x = (w, u).
 
-        The numbers c_2 and c_3 are the values of two Stumpff functions at w^2.
+        The numbers c_k are the values of the Stumpff functions at w^2.
         """
         z = x[0] * x[0]
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -140,18 +140,18 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g = (c, s, a) with (c, s) multiplied by 1 + e/2 + 3 e^2/8.
+        """Return (f c, f s, a) for g = (c, s, a), where f = 1 + e/2 + 3 e^2/8 and e = 1 - c^2 - s^2.
 
-        Here e = 1 - c^2 - s^2. The length of the scaled vector (c, s) is 1 + O(e^3).
+        The length of the vector (f c, f s) is 1 + O(e^3).
         """
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair: the text of the equation c^2 + s^2 = 1, and the residual of this equation."""
+        """Return one pair (text, residual) for the equation c^2 + s^2 = 1 of g = (c, s, a)."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return one symbol for each coordinate. The names are ``name`` followed by c, s, 0 and 1."""
+        """Return the symbols of the four coordinates: ``name`` followed by c, s, 0 or 1."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in ("c", "s", "0", "1")]

@@ -11,8 +11,8 @@ from codegen.groups.so3 import SO3
 class SE23(Semidirect):
     """Extended poses (R, v, p): attitude R (row by row), velocity v and position p.
 
-    An element of the algebra is (w, a, u): the angular velocity w, and the derivatives a of v and u of p at
-    the identity.
+    An element of the algebra is (w, a, u): the angular velocity w, the derivative a of v, and the
+    derivative u of p, all at the identity.
 
     - The product is (R, v, p)(R', v', p') = (R R', v + R v', p + R p').
     - The exponential is exp(w, a, u) = (exp w, dexp_w a, dexp_w u).
@@ -30,5 +30,5 @@ class SE23(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, the velocity, the position"
 
     def with_linear(self, linear: LieGroup) -> SE23:
-        """Return SE_2(3) with ``linear`` as the group of rotations."""
+        """Return SE_2(3) with the attitude in the group ``linear``."""
         return SE23(linear)

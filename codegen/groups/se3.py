@@ -17,8 +17,8 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - Functions of ad_(w, u) are computed with dual numbers. The formula on so(3) is evaluated at w + u e with
-      e^2 = 0.
+    - For a function of ad_(w, u), the formula for the same function of ad_w is evaluated at the dual number
+      w + u e, where e^2 = 0.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """
@@ -32,5 +32,5 @@ class SE3(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, then the position"
 
     def with_linear(self, linear: LieGroup) -> SE3:
-        """Return SE(3) with ``linear`` as the group of rotations."""
+        """Return SE(3) with the attitude in the group ``linear``."""
         return SE3(linear)

@@ -50,9 +50,9 @@ class Semidirect(
 ):
     """The semidirect product of a group G, the linear factor, and a vector space V on which G acts.
 
-    The argument ``representation`` is the representation rho of G on V. The space V is a direct sum of one or
-    more copies of the same space. An element is (g, a): the coordinates of g in G, followed by the components
-    of a in V. For x in the algebra of G and z in V, x.z is the action of x on z.
+    The argument ``representation`` is the representation rho of G on V. V consists of one or more copies of
+    one space. An element is (g, a): the coordinates of g in G, followed by the components of a, copy by copy.
+    For x in the algebra of G and z in V, the action x.z is the derivative of rho(exp(eps x)) z at eps = 0.
 
     - The product is (g, a)(k, b) = (g k, a + rho(g) b).
     - The element (g, a) maps the point z of V to rho(g) z + a.
@@ -60,6 +60,7 @@ class Semidirect(
     - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
     - The exponential is exp(x, u) = (exp x, phi(x) u). Here phi(x) is the sum of X^k/(k+1)! over k >= 0, and
       X is the linear map v -> x.v.
+    - The momentum map J is defined by <J(v, p), x> = <p, x.v> for all x in the algebra of G.
 
     The capabilities of the product (:mod:`codegen.groups.capabilities`) depend on the linear factor and on
     the representation.
@@ -95,19 +96,19 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield the components of v in each copy of the space, one tuple for each copy."""
+        """Split the vector v of V into one tuple for each copy (see :class:`Semidirect`)."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Apply ``operation`` to the components in each copy of the space, and join the results."""
+        """Apply ``operation`` to the vectors of V copy by copy, and join the results."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product if it has the operations of the class ``capability``, otherwise None.
+        """Return this product if it has the operations of the class ``capability``. Otherwise return None.
 
-        For most capabilities, the linear factor must have the same capability. Some capabilities also need
-        formulas of the representation.
+        For most capabilities, the linear factor must have this capability, too. Some capabilities also
+        depend on the representation.
         """
         own = super().offers(capability)
         if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
@@ -123,7 +124,7 @@ class Semidirect(
         return own if self.linear.offers(capability) is not None else None
 
     def variants(self) -> Sequence[Semidirect]:
-        """Return one product for each variant of the linear factor. See :meth:`LieGroup.variants`."""
+        """Return one product for each implementation of the linear factor (see :meth:`LieGroup.variants`)."""
         return tuple(self.with_linear(variant) for variant in self.linear.variants())
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
@@ -167,9 +168,9 @@ class Semidirect(
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return cay(x) = (cay y, (1 - Y/2)^-1 u) for x = (y, u), where Y is the matrix of y.
+        """Return cay(x) = (cay y, (1 - Y/2)^-1 u) for x = (y, u). Here Y is the linear map v -> y.v.
 
-        Let C be the matrix of cay y. The code computes the vector (1 - Y/2)^-1 u as (u + C u)/2.
+        The vector (1 - Y/2)^-1 u is computed as (u + C u)/2 with C = rho(cay y) and the representation rho.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -184,7 +185,7 @@ class Semidirect(
         """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The second component of the result is t - (a.t)/2 with t = v + (b.u)/2.
+        # The form t - (a.t)/2 with t = v + (b.u)/2 needs two actions instead of three.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -192,9 +193,9 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the matrix product x y x, which is (a b a, a.(b.u)) for x = (a, u) and y = (b, v).
+        """Return x y x = (a b a, a.(b.u)) for x = (a, u) and y = (b, v).
 
-        Here b.u is the action of b on the vector u.
+        Here x y x and a b a are products of matrices, and b.u is the action of b on the vector u.
         """
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)
@@ -219,20 +220,20 @@ class Semidirect(
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u for vectors u and v of one copy of the space. Here a.v is the action of a on v."""
+        """Return a.v - b.u for vectors u and v of one copy, where a.v is the action of a on v."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
 
     def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map J(v, p), summed over all copies of the space."""
+        """Return the momentum map J(v, p), defined by <J(v, p), x> = <p, x.v> for all x."""
         parts = zip(self._copies(v), self._copies(p), strict=True)
         return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return ad*_x mu = (ad*_y m - J(u, p), Y^T p) for x = (y, u) and mu = (m, p).
 
-        Here J is the momentum map, and Y is the action of y on vectors.
+        Here Y is the linear map v -> y.v. The momentum map J satisfies <J(u, p), z> = <p, z.u> for all z.
         """
         (y, u), (m, p) = self._split(x), self._split(mu)
         turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
@@ -283,9 +284,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        If the representation has closed forms, the method calls :meth:`series`. Otherwise the result is
-        (dexp*_y (m - J(t, p)) + D_y f, D_u f). Here J is the momentum map, t = phi(y) u with phi(y) from
-        :meth:`exp`, and f(y, u) = <p, t>. D_y f and D_u f are the partial derivatives of f.
+        Let J be the momentum map, t = phi(y) u with phi(y) from :meth:`exp`, and f(y, u) = <p, t>. The result
+        is (dexp*_y (m - J(t, p)) + D_y f, D_u f) with the partial derivatives D_y f and D_u f. If the
+        representation has closed forms of functions of ad_x, :meth:`series` computes the result.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -297,8 +298,9 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W(ad_x) v, where W is the product of the functions in ``word``. If ``dual`` is true, return
-        W(ad*_x) v.
+        """Return W(ad_x) v, or W(ad*_x) v if ``dual`` is true.
+
+        The function W(t) is the product of the factors in ``word``. Each factor is a function of t.
         """
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
@@ -306,9 +308,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the first component of the result is a sum over all copies of the space.
-            # The contribution of w must be added once. Therefore ``rule`` receives w for the first copy,
-            # and zero for each other copy.
+            # If ``dual`` is true, ``first`` is a sum over all copies. The part that depends on w must be
+            # added once. Therefore zero replaces w for all copies except the first.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -325,22 +326,22 @@ class Semidirect(
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        Here f is a number, and W is a product of functions of ad_x. If ``dual`` is true, ad*_x replaces ad_x.
-        The argument ``total`` is not used.
+        Here f is a scalar, and W is a product of factors (see :meth:`series`). If ``dual`` is true, ad*_x
+        replaces ad_x. The argument ``total`` has no effect in this class.
         """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
         return _sum(*values)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g = (y.q, y.a + u) for x = (y, u) and g = (q, a).
+        """Return the velocity x.g = (y.q, y.a + u) for x = (y, u) and g = (q, a).
 
-        Here y.q is a velocity in the linear factor, and y.a is the action of y on the vector a.
+        Here y.q is the derivative of exp(eps y) q at eps = 0, and y.a is the action of y on the vector a.
         """
         q, a = self._element(g)
         return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x = (q.y, rho(q) u) for g = (q, a) and x = (y, u).
+        """Return the velocity g.x = (q.y, rho(q) u) for g = (q, a) and x = (y, u).
 
         Here q.y is the derivative of q exp(eps y) at eps = 0, and rho is the representation.
         """
@@ -349,26 +350,26 @@ class Semidirect(
         return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return the element of the algebra for the tangent vector v at g = (q, a).
+        """Return the element of the algebra whose velocity at g = (q, a) is v (see :meth:`velocity`).
 
-        For v = (x.q, w), the element is (x, w - x.a). Here x.q is a velocity in the linear factor, and x.a is
-        the action of x on the vector a.
+        For v = (x.q, w), the element is (x, w - x.a). Here x.q is the derivative of exp(eps x) q at eps = 0,
+        and x.a is the action of x on the vector a.
         """
         (q, a), (first, w) = self._element(g), self._element(v)
         x = self.linear.require(RightTrivialisation).rate(d, first, q)
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of the linear factor. The components of the vector are independent."""
+        """Return the replacement rules of the linear factor (see :meth:`LeftTranslation.relations`)."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g = (q, a) with q projected onto the linear factor. The vector a is not changed."""
+        """Return (p, a) for g = (q, a), where p is the projection of q onto the linear factor."""
         q, a = self._element(g)
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations that q satisfies for g = (q, a). The vector a satisfies no equations."""
+        """Return the equations of the linear factor with their residuals at q, for g = (q, a)."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -377,20 +378,20 @@ class Semidirect(
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
-        """Return the velocity y.z + u of the point z for x = (y, u). If ``translated`` is false, omit u."""
+        """Return the velocity y.z + u of the point z for x = (y, u), or y.z if ``translated`` is false."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
         return _sum(turned, u) if translated else turned
 
     @property
     def order(self) -> int:
-        """The number of rows of the matrix of an element."""
+        """The number of rows and columns of the matrices from :meth:`matrix`."""
         return self.width + self.representation.copies
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix [[rho(q), A], [0, 1]] for g = (q, a), with the representation rho.
+        """Return the matrix [[R, A], [0, I]] for g = (q, a). R is the matrix of q, and I is a unit matrix.
 
-        Each column of A contains the components of a in one copy of the space.
+        Each column of A contains the components of a in one copy (see :class:`Semidirect`).
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
@@ -398,18 +399,18 @@ class Semidirect(
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
 
-        Each column of U contains the components of u in one copy of the space.
+        Each column of U contains the components of u in one copy (see :class:`Semidirect`).
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix."""
+        """Return the coordinates of the element with the given matrix (see :meth:`matrix`)."""
         block, a = self._blocks(matrix)
         return self._matrices().element(block) + a
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element of the algebra, given its matrix."""
+        """Return the coordinates of the element of the algebra with the given matrix (see :meth:`hat`)."""
         block, u = self._blocks(matrix)
         return self._matrices().vee(d, block) + u
 
@@ -430,40 +431,40 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The semidirect product of the cover of the linear factor with the same vector space."""
+        """The covering group: this product with the covering group of the linear factor in place of G."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
         return self.linear.require(Covered)
 
     def _over(self, q: Vector[S]) -> Pair[S]:
-        """Split the element q = (r, a) of the cover into r and the vector a."""
+        """Split the element q = (r, a) of the covering group into r and the vector a."""
         size = self._covered().cover.size
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a). The covering map of the linear factor maps r to s."""
+        """Return (s, a) for q = (r, a), where the covering map of the linear factor maps r to s."""
         g, a = self._over(q)
         return self._covered().covering(d, g) + a
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return (s, a) for q = (r, a). ``projected_covering`` of the linear factor maps r to s."""
+        """For q = (r, a), project r onto its group, then return the image under :meth:`covering`."""
         g, a = self._over(q)
         return self._covered().projected_covering(d, g) + a
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (z, u) for x = (y, u). ``lifted_velocity`` of the linear factor maps y to z."""
+        """Return the element of the cover's algebra that the derivative of :meth:`covering` maps to x."""
         y, u = self._split(x)
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the linear factor, one for each formula of :meth:`lift`."""
+        """Return the pivots of the linear factor at q for g = (q, a) (see :meth:`Covered.pivots`)."""
         return self._covered().pivots(d, self._element(g)[0])
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element (r, a) of the cover for g = (q, a).
+        """Return an element (r, a) of the covering group whose image under :meth:`covering` is g = (q, a).
 
-        The covering map of the linear factor maps r to q. ``formula`` is the index of the formula for r.
+        ``formula`` is the index of the formula that computes r.
         """
         q, a = self._element(g)
         return self._covered().lift(d, q, formula) + a
@@ -471,8 +472,8 @@ class Semidirect(
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of the linear factor, followed by the symbols of the vector.
 
-        The symbol of a component of the vector is ``name`` followed by an index. If the linear factor already
-        uses one of these symbols, the letter v is inserted before the index.
+        The symbols of the vector are ``name`` followed by an index. If the linear factor uses one of these
+        symbols, the letter v precedes each index of the vector.
         """
         from sympy import Symbol
 

@@ -26,5 +26,5 @@ class SL(MatrixGroup):
         super().__init__(f"SL({n})", [*basis, *diagonal])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair: the text of the equation det g = 1, and the residual of this equation."""
+        """Return one pair (text, residual) for the equation det g = 1."""
         return (("det g = 1", determinant(g, self.n) - d.rational(1)),)

@@ -45,7 +45,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return four * _determinant(x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^-1."""
+        """Return Ad_g x = g x g^-1."""
         return self._conjugated(d, g, x, _adjugate(g))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -63,13 +63,13 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return the momentum Ad*_{exp(-x)} mu + dexp*_{-x} n. Both terms have closed forms."""
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, computed in closed form."""
         return Coadjoint.transport(self, d, x, n, mu)
 
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return one tuple: the entries of exp(x) q, then the momentum transport(x, n, mu)."""
+        """Return exp(x, n) (q, mu) in T*G: the matrix exp(x) q, then the result of :meth:`transport`."""
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -77,12 +77,12 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one pair: the text of the equation det g = 1, and the residual of this equation."""
+        """Return one pair (text, residual) for the equation det g = 1."""
         return (("det g = 1", g[0] * g[3] - g[1] * g[2] - d.rational(1)),)
 
 
 def _adjugate(g: Vector[S]) -> Vector[S]:
-    """Return the adjugate of the matrix g. It is the inverse of g if det g = 1."""
+    """Return the adjugate of the matrix g, which is the inverse if det g = 1."""
     return (g[3], -g[1], -g[2], g[0])
 
 

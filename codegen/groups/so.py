@@ -22,5 +22,5 @@ class SO(RotationGroup):
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return a pair (text, residual) for each entry of g^T g = 1, and one pair for det g = 1."""
+        """Return one pair (text, residual) for each entry of g^T g - 1, and one pair for det g = 1."""
         return (*super().laws(d, g), ("det g = 1", determinant(g, self.n) - d.rational(1)))
