@@ -66,7 +66,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     if isinstance(condition, sympy.And | sympy.Or):
         joins_all = isinstance(condition, sympy.And)
         total: Condition = always
-        # The operands of And and Or are sorted, because their order in sympy depends on hashes.
+        # Sorting makes the result reproducible. The order of the operands in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
         # For Or, the operands were negated, so ``total`` means that no operand is true. The negation of

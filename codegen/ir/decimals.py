@@ -36,10 +36,11 @@ def decimal(value: sympy.Float) -> Fraction:
 
 
 def exact(value: object) -> Fraction | None:
-    """Convert a number from the user's input to an exact fraction. If ``value`` is not a rational number,
+    """Convert a number from the user's input to a fraction. If ``value`` is not a rational number,
     return None.
 
-    ``value`` may be a number of Python, NumPy or sympy, or a text such as "1/10".
+    ``value`` is a number of Python, NumPy or sympy, or a text such as "1/10". A float becomes the shortest
+    decimal that rounds to this float.
 
     >>> exact(0.1), exact("1/3"), exact("x")
     (Fraction(1, 10), Fraction(1, 3), None)

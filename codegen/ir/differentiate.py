@@ -33,8 +33,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     # A node is visited after all nodes that use it. At this point its adjoint is complete.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # The terms of an adjoint may cancel. A node with the adjoint zero does not change the adjoints of its
-        # arguments.
+        # The adjoint of a node is zero if its terms cancel. A zero adjoint contributes nothing to the
+        # adjoints of the arguments.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    Derivatives of vector functions are expensive. Therefore a caller may pass ``moving``, the node numbers of
-    the nodes that depend on the variables. If an argument of a vector function is not in ``moving``, zero is
-    returned for this argument.
+    Derivatives of vector functions are expensive. They are computed only for arguments whose node numbers are
+    in ``moving``. For the other arguments of a vector function, zero is returned. If ``moving`` is None, all
+    derivatives are computed.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -73,8 +73,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # The derivative of a vector function consists of many expressions. If an argument does not depend
-            # on the variables, zero is returned instead.
+            # The derivative of a vector function consists of many expressions. Hence it is computed only for
+            # the arguments in ``moving``.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -111,8 +111,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [node]
         case "log":
             return [space.one / x]
-        # The Stumpff function c_0 has the derivative -c_1/2. If the argument may be negative,
-        # ``signed_stumpff0`` computes c_0.
+        # The Stumpff function c_0 has the derivative -c_1/2. ``stumpff0`` computes c_0(x) for x >= 0 only.
+        # ``signed_stumpff0`` computes c_0(x) for all x.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -128,8 +128,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # The derivatives of a/b contain 1/b. The function ``quotient`` computes 1/b and gives 0 if b = 0.
-            # A division would give infinity for b = 0.
+            # The derivatives of quotient(a, b) contain 1/b. For b = 0 they are set to 0, because a division
+            # would give infinity.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
@@ -144,10 +144,10 @@ def sign(x: Expr) -> Expr:
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the partial derivatives of a call ``fabs(x)`` or ``choose(x, a, b)``.
+    """Return the partial derivatives of ``fabs(x)`` or ``choose(x, a, b)``.
 
-    ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. The derivative of ``fabs`` at 0 is set
-    to 0.
+    ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. At x = 0, the derivatives of both
+    functions with respect to x are set to 0.
     """
     space, (x, *formulas) = node.space, node.args
     if not formulas:

@@ -22,8 +22,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """Raised if an iteration does not converge within the allowed number of sweeps, or if the iteration
-    computes a number that is not finite."""
+    """Raised if an iteration does not converge, or if it computes a number that is not finite."""
 
 
 # The types of scalars (float, mpf, series and Expr) have the same operators, but no common base class.
@@ -31,7 +30,7 @@ Scalar: TypeAlias = Any
 """A number (scalar) of a domain. Its type depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
-"""A value of a variable of a program: a scalar for a real number, otherwise a flat tuple of scalars."""
+"""The value of a variable: a scalar for a real number, otherwise a flat tuple of scalars."""
 
 Values: TypeAlias = tuple[Value, ...]
 """The arguments or the results of an operation."""
@@ -43,21 +42,22 @@ class Domain(Protocol):
     h: Scalar
 
     def number(self, value: Number) -> Scalar:
-        """Convert an exact number to a scalar of this domain, with at most one rounding."""
+        """Convert an exact number to a scalar of this domain."""
 
     def rational(self, p: int, q: int = 1) -> Scalar:
         """Return the rational number p/q as a scalar of this domain."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of the scalar function with this name (:data:`codegen.ir.expr.FUNCTIONS`)."""
+        """Return the value of a scalar function at the arguments ``args``. The names of the functions are in
+        :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) for a sweep of an iteration from values ``old`` to ``new``.
-        The change is the largest absolute difference. ``previous`` is the change of the previous sweep or
-        None."""
+        """Return the pair (converged, change) after one sweep of an iteration. The sweep replaces the values
+        ``old`` by ``new``. The change is the largest absolute difference of ``old`` and ``new``. ``previous``
+        is the change in the preceding sweep. In the first sweep, ``previous`` is None."""
 
 
 class Differenced(Domain, Protocol):
@@ -68,11 +68,11 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
-    z.
+    """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3 and real z.
 
-    For large z the function oscillates. Relative to the amplitude, the error is then a few rounding units.
-    For z > 2^52 the result is NaN, as in emitted code.
+    For large z, c_k contains sin s or cos s with s = sqrt z. The rounding error of s causes an error of about
+    2^-53 s in the sine and the cosine. For z > 2^52 the result is NaN. In emitted code the bound is smaller
+    (:func:`codegen.snippets.stumpff.limit`).
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
@@ -188,13 +188,12 @@ class FloatDomain:
         # All comparisons below are false for a NaN. Without this test, a NaN would not end the iteration.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The change is compared with the largest unknown. A small unknown may be a sum of large terms that
-        # cancel. The rounding errors of these terms do not cancel.
+        # ``change`` is compared with the largest unknown. A small unknown can be a sum of large terms that
+        # cancel. The rounding errors of the large terms do not cancel.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # Each sweep multiplies the change by about q = ``change``/``before``. The next change is about
-        # q * ``change``. It must be below half a unit in the last place. Two changes give only a rough value
-        # of q, so ``change`` itself must also be small.
+        # With q = ``change``/``before``, the next change is about q * ``change``. It must be smaller than the
+        # rounding error of the largest unknown. As q is inaccurate, ``change`` itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
@@ -213,10 +212,12 @@ LARGEST_BITS = 16384
 
 
 class PreciseDomain:
-    """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
-    context. Let n be :data:`LARGEST_BITS`. If an argument of a function has an absolute value of 2^n or more,
-    OverflowError is raised. This error ends a divergent iteration early. Otherwise the numbers might get
-    millions of digits, and mpmath functions would need a long time."""
+    """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each instance has its own mpmath
+    context.
+
+    Let n be :data:`LARGEST_BITS`. If an argument of a function has an absolute value of 2^n or more,
+    OverflowError is raised. This error ends a divergent iteration before mpmath functions become very slow.
+    """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -307,9 +308,8 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change), see :meth:`Domain.settled`. If the change is zero, the
-        iteration has converged. A positive change must be at most 2^12 rounding units and at least
-        ``previous``."""
+        """Return the pair (converged, change), see :meth:`Domain.settled`. The iteration has converged if
+        the change is zero, or if it is at most 2^12 rounding units and no longer decreases."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # While the change decreases from sweep to sweep, a further sweep gives more correct digits.
@@ -387,7 +387,7 @@ class SeriesDomain:
             raise ArithmeticError(f"the function {function} cannot be computed for exact power series")
         k, step, first = starts[function]
         # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. The series of
-        # exp, sinh and cosh have no negative coefficients. Here the argument of ``_sum`` is negated.
+        # exp, sinh and cosh have no negative coefficients, so they need the negated argument.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -440,7 +440,7 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The divisor is (step j + k)!/(step (j - 1) + k)!.
+            # Term j is term j - 1, multiplied by -z and divided by (step j + k)!/(step (j - 1) + k)!.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
             # The series z has no constant term, so the lowest power of h increases from term to term. Powers
@@ -463,7 +463,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The key of a time t is ``t.id``. Equal expressions t have the same key.
+        # The keys are the node numbers of times. Equal expressions have the same node number.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -479,15 +479,15 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions. If the method ``expanded`` of the function
-        returns None, each result is a call of the function."""
+        """Return the results of a vector function as expressions. If the function has no scalar formulas for
+        its results, the expressions are calls of the function."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for the values of functions at the time t, by the names of the functions. The caller
-        of the emitted code supplies these functions. Equal times give the same symbols."""
-        # Emitted code calls a function only once for each time, even if several stages have the same time.
+        """Return a dictionary from the function names ``names`` to symbols. The symbols denote the values of
+        the functions at the time t. The caller of the emitted code supplies the functions."""
+        # Stages at equal times use the same symbols, so emitted code needs only one value of each function.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}
