@@ -51,14 +51,14 @@ def interpret(
     - ``inputs`` contains a value for each input: a scalar of ``domain`` for a real number, otherwise a flat
       tuple of scalars. A matrix is stored row by row.
     - ``limit`` is the largest number of iterations (sweeps) for each block. A block is a system of equations.
-    - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
+    - ``newton`` is true if Newton's method may be used after a slow or failed fixed-point iteration.
     - ``solutions`` is a table from unknowns to values. Fixed-point iteration begins at these values. After
       the step the table contains the solutions of all blocks. Composition methods ignore this table.
     - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
       used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
-    ``domain`` may have a method ``computed``. In this case ``computed(name, x)`` replaces each computed value
-    x, where ``name`` is the name of the variable.
+    If ``domain`` has a method ``computed``, the result of ``computed(name, x)`` replaces each computed value
+    x. Here ``name`` is the name of the variable with the value x.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
     block.
@@ -106,9 +106,8 @@ def _fixed_point_first(
     expected: Env,
     newton: bool,
 ) -> None:
-    """Solve a system of equations by fixed-point iteration, which needs no difference quotients.
-
-    If the fixed-point iteration fails and ``newton`` is true, Newton's method is used.
+    """Solve the equations of ``block`` by fixed-point iteration. If it fails and ``newton`` is true, Newton's
+    method is used.
     """
     # Newton's method begins after at most ``patience`` sweeps of the fixed-point iteration. Without Newton's
     # method, ``limit`` sweeps are permitted.
@@ -123,7 +122,9 @@ def _fixed_point_first(
 
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
-    """Return the momentum in the body frame, Ad*_q mu, where ``state`` contains q and mu."""
+    """Return Ad*_q mu, the momentum in the body frame. ``state`` contains the configuration q and the
+    momentum mu in the space frame.
+    """
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -133,12 +134,12 @@ def outward(
 ) -> tuple[Scalar, ...]:
     """Return the momentum in the space frame after a step that was computed in the body frame.
 
-    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
-    step, with the body momentum. Both body momenta are converted to space momenta. The result is mu plus the
-    difference of these space momenta.
+    ``state`` contains the space momentum mu before the step. ``ends`` are two states with body momenta: the
+    state before the step and the state after the step. Both body momenta are converted to space momenta. The
+    result is mu plus the increase of the converted momentum.
 
-    Rounding errors make the group element q of a state slightly non-orthogonal. The resulting errors of the
-    two space momenta nearly cancel in the difference.
+    Rounding errors make the configuration q slightly non-orthogonal, so both converted momenta have errors.
+    The errors nearly cancel in the increase.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -189,8 +190,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test for convergence comes before the update of the unknowns. After a successful test, ``env``
-        # contains the unknowns and the values that were computed from them.
+        # The convergence test comes before the update of the unknowns. Therefore all values in ``env`` are
+        # computed from the final unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -218,7 +219,7 @@ def _correct(
     The iteration begins at the values ``near``. If ``near`` is None, the iteration begins at the values of
     ``block.starts``. The result is the list of all scalars of the solution u.
 
-    If the domain has a method ``rounded``, this method rounds the values g(u).
+    If the domain has a method ``rounded``, this method adds simulated rounding errors to the values g(u).
     """
     kinds = [u.kind for u in block.unknowns]
     # The scalars of all unknowns form one vector, because the equations depend on one another. ``widths``
@@ -245,17 +246,17 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
-            # Only the scalar with the index j is changed.
+            # The difference quotient with respect to scalar j of u needs g at u + ``step`` e_j.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            # ``slopes`` is column j of g'(u). The matrix of Newton's method is 1 - g'(u).
+            # ``slopes`` is column j of g'(u). Newton's method needs the matrix 1 - g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         # For the equations u = g(u), the correction d of u solves (1 - g'(u)) d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # ``increment`` is about the square root of the rounding unit. If each change is at most
-            # ``increment``, the iteration has converged. One further Newton step about squares the error.
+            # If no change exceeds ``increment``, a single further Newton step is enough, because this step
+            # about squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
@@ -272,7 +273,7 @@ def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
 
     ``change`` is the last change of the unknowns.
     """
-    # The message shows two digits of the change, so a double is precise enough.
+    # The message shows only two digits, so the change is converted to a double.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 
@@ -285,8 +286,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Row exchanges avoid small pivots. For small h they are not necessary, because the matrix is close to
-        # the identity.
+        # Row exchanges avoid small pivots.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:

@@ -1,11 +1,13 @@
-"""Exact Jacobians of expressions by elimination of vertices. This method needs fewer operations than a
-separate computation of each column of the Jacobian.
+"""Exact Jacobians of expressions by elimination of vertices. This method usually needs fewer operations than
+a separate computation of each column of the Jacobian.
 
 The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
-uses it. Its label is the partial derivative of the node with respect to the argument. When a vertex v is
-eliminated, each edge from u to v is joined to each edge from v to w. The product of their labels is added to
-the label of the edge from u to w. At the end only the variables and the results are left. The labels of the
-edges between them are the entries of the Jacobian.
+uses the argument. The label of the edge is the partial derivative of the node with respect to the argument.
+
+The elimination removes a vertex v and its edges. For each pair of an edge from u to v and an edge from v to
+w, the product of the two labels is added to the label of the edge from u to w. A missing edge has the label
+zero. After all eliminations, every edge leads from a variable to a result. The labels of these edges are the
+entries of the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
 next. The cost of a vertex is the number of incoming edges times the number of outgoing edges (Markowitz's
@@ -68,7 +70,7 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # An edge with label 1 leads from the node ``root`` to the vertex -1 - i of its result.
+            # Result i has the vertex -1 - i and the derivative 1 with respect to its node ``root``.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
@@ -79,7 +81,7 @@ class _Graph:
         # By the chain rule, the contributions of all paths from u to v are added. Two edges from u to v can
         # therefore be merged into one edge, whose label is the sum of their labels.
         total = factor if old is None else old + factor
-        # An edge with the label zero contributes nothing. It is removed, so that the costs do not count it.
+        # An edge with the label zero is removed, because it would increase the costs for no benefit.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -96,8 +98,8 @@ class _Graph:
         """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost, the vertex with the
         largest node number comes first.
         """
-        # The queue returns its smallest entry (cost, -v). Among entries of equal cost this is the entry with
-        # the largest v.
+        # The queue returns its smallest entry first. For equal costs, the smallest entry (cost, -v) has the
+        # largest v.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue, because its cost changes. Entries of a vertex that
@@ -116,8 +118,8 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Only inner vertices are eliminated. ``before`` does not contain
-                # the variables, and ``after`` does not contain the results.
+                # Only inner vertices are eliminated. Variables are not in ``before``, and results are not in
+                # ``after``, so a vertex in both tables is an inner vertex.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 

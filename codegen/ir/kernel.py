@@ -1,4 +1,4 @@
-"""Kernels. A kernel contains the statements of one step. The printers translate it to C or Python code.
+"""Kernels. A kernel contains the statements of one step. It is translated to C or Python code.
 
 The statements are scalar assignments and loops. A kernel has no conditional statements. Each name is the
 target of only one assignment.
@@ -25,8 +25,9 @@ from codegen.ir.site_step import SiteStep
 LEAD = "lead.h"
 """In a splitting method, the name of the symbol for the duration of the last flow of a step.
 
-In a run of several steps, the last flow of each step is joined with the first flow of the next step. The name
-contains a dot, so it differs from every name that a user can choose.
+In a run of several steps, the last flow of a step includes the first flow of the next step. In the last step
+of the run, this flow therefore has another duration. The name contains a dot, so it differs from every name
+that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
@@ -38,8 +39,8 @@ A deferred flow is applied only once in a run. Its duration is the total duratio
 LONGEST = 256
 """The largest number of steps that share one deferred flow (:class:`Deferred`).
 
-The angles in a deferred flow are proportional to the number of steps. The rounding errors of the angles grow
-in the same proportion.
+The rounding errors of the angles in a deferred flow are proportional to the number of steps. Therefore this
+number is bounded.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
@@ -58,8 +59,8 @@ UNIT = 2.0**-53
 LOST = 2.0**-47
 """A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`).
 
-The stopping rule computes h times the change of the unknowns. If this product is below ``LOST`` times the
-largest number in each part of the state, the rule treats the product as a rounding error.
+The stopping rule computes h times the change of the unknowns. This product counts as a rounding error if, for
+every part of the state, it is at most ``LOST`` times the largest number in the part.
 """
 
 VARIATION = "variation"
@@ -85,15 +86,15 @@ class Newton:
 
     ``body`` computes the entries of ``matrix``. The method has three forms:
     - Newton: the equations are u = g(u), and the matrix is 1 - g'(u). Later sweeps and steps use
-      the same matrix.
+      the same matrix, until the iteration converges too slowly.
     - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
       to first order in h. Each step computes and inverts the matrix.
     - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
       residuals r(u). The matrix is -r'(u), expanded to first order in h. Its inverse is used for
       :attr:`period` steps.
 
-    ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix. ``changes`` are the names
-    of the variables for the changes of the unknowns in a sweep.
+    If ``inverted`` is true, ``matrix`` is the inverse of the matrix above. ``changes`` are the names of the
+    variables for the changes of the unknowns in a sweep.
     """
 
     body: tuple[Let, ...]
@@ -103,19 +104,19 @@ class Newton:
     residuals: bool = False
     changes: tuple[str, ...] = ()
 
-    # The matrix is computed again if the change of the unknowns in a sweep exceeds CONTRACTION times the
-    # change in the previous sweep.
+    # If the change in a sweep exceeds CONTRACTION times the previous change, Newton's matrix is computed
+    # again.
     CONTRACTION: ClassVar[float] = 2.0**-6
 
     @property
     def period(self) -> int:
-        """The number of steps that use the same inverse matrix, or 0 if no such number is given.
+        """The number of steps that use the same inverse matrix, or 0 if ``residuals`` is false.
 
         With a longer period, fewer inverses are computed. However, an older inverse is less accurate, so a
         step needs more sweeps.
         """
-        # An inverse costs O(n^3) operations, where n is the number of unknowns. Shared by n/2 steps, the
-        # inverse costs O(n^2) operations per step. A product with a vector costs O(n^2) operations, too.
+        # For n unknowns, an inverse costs O(n^3) operations. If n/2 steps share the inverse, its cost per
+        # step is O(n^2). The product of the inverse and a vector in each sweep costs O(n^2), too.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -124,23 +125,23 @@ class Loop:
     """A loop that solves the equations u = g(u) by iteration.
 
     The values u are called unknowns, and the values g(u) are called images. ``body`` computes the images. The
-    loop ends when the changes of the unknowns are at rounding level.
+    loop ends when the changes of the unknowns are at rounding level. If ``newton.residuals`` is true, the
+    equations are r(u) = 0, and the images are the residuals r(u).
 
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. ``starts`` is empty if a :class:`Start` computes the first values.
 
     Each sweep computes the change of the unknowns. In fixed-point iteration the change is g(u) - u, and the
-    change of the last sweep is not added to the unknowns. If ``newton`` is given, the change is the inverse
-    of ``newton.matrix`` times g(u) - u, and every change is added.
+    change of the last sweep is not added to the unknowns. With ``newton``, the change is the inverse of
+    Newton's matrix times g(u) - u or r(u), and every change is added.
 
-    The stopping rule (:mod:`codegen.run.stopping`) uses these values:
-    - ``tolerance``: if the change is below ``tolerance`` times the largest unknown and no longer decreases,
-      the loop ends.
-    - ``close``: the loop also ends if the change is below ``close`` times the largest unknown, and the
-      predicted next change is at rounding level.
-    - ``limit`` is the largest number of sweeps.
-    - ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``. The loop may then
-      end at a larger change.
+    ``limit`` is the largest number of sweeps. The stopping rule (:mod:`codegen.run.stopping`) ends the loop
+    in two main cases:
+    - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
+    - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
+      unknown. For equations r(u) = 0, the bounds of this case are different.
+
+    ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``.
     """
 
     label: str
@@ -148,7 +149,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # The tolerance is larger than the unit roundoff 2^-53, because a sweep makes many rounding errors.
+    # The rounding errors of all operations in a sweep may add up to many times the unit roundoff 2^-53.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -163,19 +164,19 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The bound ``close`` of the stopping rule (:class:`Loop`).
+        """The bound of the last change in the stopping rule (:class:`Loop`), divided by the largest unknown.
 
-        Let h L be the Lipschitz constant of the images g(u). Statements after the loop may use values of
-        ``body``. These values do not contain the last change of the unknowns. Their error is therefore about
-        h L times the last change.
+        Statements after the loop may use values of ``body``. In Newton's method, these values are computed
+        before the last change is added to the unknowns. If h L is the Lipschitz constant of g, the error of
+        these values is about h L times the last change.
         """
-        # Only the unknowns are used after the loop. Their error is smaller than the last change, so the
-        # bound of the change is larger than ``tolerance``.
+        # If only the unknowns are used later, a larger change is accepted, because the error of the unknowns
+        # is smaller than the last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # A matrix to first order in h multiplies the change by about (h L)^2 in each sweep. Such a loop
-        # converges only for small h L. Other loops may also converge for larger h L. For larger h L the
-        # values of ``body`` have larger errors, so the bound of these loops is smaller.
+        # With Newton's matrix to first order in h, a loop converges only for small h L. Other loops may also
+        # converge for larger h L, and the values of ``body`` then have larger errors. Therefore the bound of
+        # the other loops is smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -196,9 +197,9 @@ class Start:
     u1 are discarded.
 
     A failed step is repeated by continuation in h. The step size is halved until the loops converge. Then
-    the step size grows to h. Each solution provides the first values for the next larger step size. A failure
-    reduces the growth factor. The continuation fails if the growth factor is at most 1 + ``SHORTEST``. It
-    also fails after ``TRIES`` attempts.
+    the step size grows to h. Each solution provides the first values for the next larger step size. The
+    growth factor is the quotient of successive step sizes. If a step fails, this factor is reduced. The
+    continuation fails if the factor is at most 1 + ``SHORTEST``, or after ``TRIES`` attempted steps.
     """
 
     unknowns: tuple[str, ...]
@@ -206,13 +207,13 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # Without extrapolation, the first value is u1. Its error is the change of the unknowns in the step. An
-    # extrapolation is useful only if its error is much smaller than this change.
+    # If the solution u1 of the last step is the first value, its error is the change of the unknowns in the
+    # step. An extrapolation is useful only if its error is smaller than this change.
     ROUGH: ClassVar[float] = 0.5
-    # A continuation that succeeds needs far fewer attempts.
+    # A continuation that succeeds tries far fewer steps.
     TRIES: ClassVar[int] = 100
-    # The growth factor is at most 4. While h grows, each failure replaces the factor by its square root.
-    # After nine successive failures the factor is at most 4^(1/2^9), which is smaller than 1 + 2^-8.
+    # The growth factor is at most 4, and each failure replaces the factor by its square root. After nine
+    # successive failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation fails.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -231,11 +232,10 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The deferred flows of a splitting method.
+    """The deferred flows of a splitting method, which are applied only once in a run of several steps.
 
-    The method computes runs of at most :data:`LONGEST` steps. Each run applies a deferred flow only once,
-    before its first step or after its last step. A run calls ``begin`` once, then the kernel of the step once
-    for each step, and then ``finish`` once.
+    A run has at most :data:`LONGEST` steps. It calls ``begin``, then the kernel of the step once for each
+    step, and then ``finish``.
 
     The symbol :data:`LEAD` is the duration of the last flow of the kernel. In the last step of a run, this
     duration is h times the number ``last``. In all other steps the duration is h times the number ``later``.
@@ -297,9 +297,10 @@ class Estimate:
 class Expansion:
     """The Taylor polynomial of the solution as a function of time.
 
-    ``enter`` computes the coordinates of the polynomial from the state. ``leave`` computes the new state from
-    the new coordinates. If the coordinates are the state, ``enter`` and ``leave`` are None. If ``controlled``
-    is true, a run may choose the step size from the Taylor coefficients.
+    The polynomial is computed in coordinates of the state. ``enter`` computes the coordinates from the state.
+    ``leave`` computes the new state from the new coordinates. If the coordinates are the state itself,
+    ``enter`` and ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the
+    Taylor coefficients.
 
     Without ``following``, the outputs of the kernel ``coefficients`` are the Taylor coefficients of order 1,
     then of order 2, and so on to the order ``degree``.
@@ -309,9 +310,9 @@ class Expansion:
     Its first outputs are constants of the loop, and its other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    The loop computes ``sums`` inner sums. The outputs of the kernel ``following`` are the coefficients a_n of
-    all inner sums, then the coefficients b_n of all inner sums, and then the Taylor coefficients of order
-    n + 1.
+    The loop computes ``sums`` inner sums, one for each product. The outputs of the kernel ``following`` are
+    the coefficients a_n for all products, then b_n for all products, and then the Taylor coefficients of
+    order n + 1.
     """
 
     degree: int
@@ -356,8 +357,8 @@ class Observed:
 class Function:
     """A function that a kernel calls in several places. It executes ``body`` and returns ``outputs``.
 
-    In expressions, the function name ``NAME.k`` denotes output k of the function ``NAME``. ``about``
-    describes the function in words.
+    In expressions, ``NAME.k`` denotes output k of the function ``NAME``, counted from 0. ``about`` describes
+    the function in words.
     """
 
     name: str
@@ -380,8 +381,8 @@ class Kernel:
     - ``outlined`` are functions that the expressions of the kernel call.
     - ``carried`` is given if the kernel uses the body momentum in place of the space momentum. It converts
       between the two momenta.
-    - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of another
-      method. Step-size control needs ``expansion`` or ``estimate``.
+    - ``expansion`` is the Taylor polynomial of a Taylor method. For other methods, ``estimate`` is the error
+      estimate. Step-size control needs ``expansion`` or ``estimate``.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.
     - ``observed`` is given if emitted code also contains a function that integrates to a given end time.
 
@@ -427,7 +428,7 @@ class Kernel:
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
-        """Yield every assignment, including the assignments inside loops."""
+        """Yield every assignment in ``body``, including the assignments inside loops."""
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement
@@ -439,7 +440,7 @@ class Kernel:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression of the kernel, in the order of execution."""
-        # The times of ``samples`` are computed before the first statement of ``body``.
+        # The caller's functions of time are evaluated before the first statement of ``body``.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -449,7 +450,7 @@ class Kernel:
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
-            # Only a loop remains.
+            # The statement is a loop.
             yield from (*statement.starts, *statement.images)
             if statement.newton is not None:
                 yield from (let.value for let in statement.newton.body)
@@ -465,17 +466,17 @@ class Kernel:
             yield from self.estimate.errors
 
     def functions(self) -> tuple[str, ...]:
-        """Return the sorted names of the functions that the expressions call."""
+        """Return the sorted names of the functions that occur in the expressions of the kernel."""
         # The order of a set is not fixed, so the names are sorted.
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those of the ``scalars`` that the step uses, in the order of ``scalars``."""
+        """Return the names in ``scalars`` that the step uses, in the order of ``scalars``."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # ``read`` also contains the scalars in the kernels of the deferred flows.
+            # The kernels of the deferred flows may use other scalars.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
-            # ``read`` also contains the scalars in the kernel of the Taylor coefficients.
+            # The kernel of the Taylor coefficients may use other scalars.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -22,7 +22,7 @@ In emitted code the degree depends on the norm of the matrix in the exponential.
 """
 
 Letter = tuple[tuple[int, Number], ...]
-"""A linear combination of the matrices a_i, as pairs (i, coefficient of a_i)."""
+"""A linear combination of the matrices a_i = h A(t_i), as pairs (i, coefficient of a_i)."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +47,9 @@ class TimeMatrix:
 
     @cached_property
     def offsets(self) -> tuple[int, ...]:
-        """The offsets of the diagonals of a banded matrix, sorted by absolute value: 0, -1, 1, -2, 2, ..."""
+        """The offsets of the stored diagonals, sorted by absolute value, for example 0, -1, 1, -2, 2."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        # The pairs (abs(x), x) order offsets with the same absolute value: -d comes before d.
+        # The offset -d comes before d.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
@@ -62,17 +62,15 @@ class TimeMatrix:
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the constant matrices in ``terms``, without repetitions."""
+        """Return the matrices in ``terms``, without repetitions."""
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the expressions in A(t): the coefficients in ``terms``, and those entries of the matrices in
-        ``terms`` that are formulas.
-        """
+        """Yield the coefficients in ``terms`` and the formulas for the entries of the matrices."""
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
-            # Entries that are given as numbers contain no expressions.
+            # A tuple contains numbers, which are not expressions.
             yield from (e for e in entries if not isinstance(e, tuple))
 
 
@@ -80,9 +78,9 @@ class TimeMatrix:
 class Element:
     """The sum of a letter and multiples of commutators, for example the exponent of an exponential.
 
-    A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in the list of letters
-    of the step, or None if the sum contains no letter. ``commutators`` contains pairs of a coefficient and an
-    index in the list of commutators of the step.
+    A letter is a linear combination of the matrices h A(t_i). ``letter`` is an index in
+    :attr:`LinearArrayStep.letters`, or None if the sum contains no letter. ``commutators`` contains pairs of
+    a coefficient and an index in :attr:`LinearArrayStep.commutators`.
     """
 
     letter: int | None
@@ -109,13 +107,13 @@ class LinearArrayStep:
     exponents: tuple[Element, ...]
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalar expressions of the step: its times, and the expressions in its matrix."""
+        """Yield the times t_i and the expressions in ``matrix``."""
         yield from self.times
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products that are needed to multiply ``element`` by a vector."""
-        # A letter is stored as one matrix, so it needs one product.
+        # The product of a letter and a vector is one matrix-vector product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             # The commutator needs the products Y v, X (Y v), X v and Y (X v).
