@@ -22,7 +22,7 @@ class Elementary:
     - ``slope(x, f)`` is the first derivative at x.
     - ``curvature(x, f)`` is the second derivative at x.
     - ``at_zero`` is the value at x = 0. If this value is not rational, ``at_zero`` is None.
-    - ``raising`` is true if Python raises an exception for some x. C computes a NaN or an infinity instead.
+    - ``raising`` is true if the function raises an exception in Python for some x.
     """
 
     name: str
@@ -67,7 +67,7 @@ def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
     return lambda x, f: x * slope(x, f) ** 3
 
 
-# Python raises an exception for sinh and cosh of large x, and for asin and acos of x with abs(x) > 1.
+# ``raising`` is true for sinh and cosh because of large x, and for asin and acos because of abs(x) > 1.
 ELEMENTARY = {
     function.name: function
     for function in (

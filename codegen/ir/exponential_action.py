@@ -1,14 +1,15 @@
 """The product exp(A) y of the exponential of an n x n matrix A and a vector y. The matrix exp(A) is not
 formed.
 
-In doubles, A is divided by a power 2^s, so that the largest row sum of the matrix B = A/2^s is small. The
-vector y is then multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham,
-SIAM J. Sci. Comput. 33 (2011) 488). One multiplication replaces y by y + B (p/m!), where m is the degree of
-the polynomial. Horner's rule computes the vector p, the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
+In doubles, A is divided by a power 2^s. The number s is chosen such that the matrix B = A/2^s has a small
+norm. The vector y is multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham,
+SIAM J. Sci. Comput. 33 (2011) 488). Let m be the degree of this polynomial. A multiplication by the
+polynomial replaces y by y + B (p/m!). Horner's rule computes the vector p, which is the sum of
+(m!/j!) B^(j-1) y over j = 1, ..., m.
 
-The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and their
-errors would be the same in every step of an integrator. For a skew matrix A, the length of y would then
-drift. Emitted code and :meth:`ExponentialAction.in_doubles` execute the same operations in the same order.
+The integers m!/j! need no rounding. The coefficients 1/j! would be rounded, with the same rounding errors in
+all steps of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
+and :meth:`ExponentialAction.in_doubles` execute the same operations in the same order.
 """
 
 from __future__ import annotations
@@ -26,33 +27,34 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number s of halvings of the matrix. The Taylor polynomial is applied 2^s times, so a larger s
-would take too long. If a matrix needs more halvings, all results are NaN.
+"""The largest number s of halvings of the matrix A. The vector y is multiplied 2^s times by a Taylor
+polynomial, so more halvings would take too long. If A needs more halvings, all results are NaN.
 """
 
 SPARSE = 12
-"""If a matrix has more rows than this number, emitted code contains a loop over all entries. For other
-matrices, emitted code contains a separate sum for each row, and the zero entries are not passed as arguments.
+"""If A has more rows than this number, the emitted function contains a loop over all entries of A. For
+smaller matrices, the emitted function contains one sum for each row. The zero entries of a smaller matrix are
+not arguments of the function.
 """
 
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
-    """Return the available degrees of the Taylor polynomial, for floating-point numbers with ``bits`` bits.
+    """Return the degrees of the Taylor polynomials, for floating-point numbers with ``bits`` bits.
 
-    A degree m is suitable if the integers m!/j! with 0 <= j <= m need no rounding. If m is the largest
-    suitable degree, the available degrees are m, m - 4, m - 8, and so on.
+    Let m be the largest degree for which the integers m!/j! with 0 <= j <= m need no rounding. The degrees
+    are the numbers m, m - 4, m - 8, ... that are larger than 3.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # The odd part of an integer is the integer without its factors 2. An integer needs no rounding if its
+    # The odd part of an integer is its largest odd divisor. An integer needs no rounding if its
     # odd part has at most ``bits`` bits. The odd part of m!/j! is not larger than the odd part of m!, so the
     # loop tests only factorials.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Only every fourth degree is returned. A larger degree than necessary costs a few more products with A.
+    # Only every fourth degree is returned. A slightly larger degree than necessary costs little time.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -63,12 +65,13 @@ def _odd(x: int) -> int:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return the largest permitted norm of a matrix for each degree of :func:`degrees`.
+    """Return the largest matrix norm for which a Taylor polynomial is accurate, for each degree of
+    :func:`degrees`.
 
-    The norm is the largest row sum of absolute values. For degree m, the largest permitted norm is
+    The norm is the largest row sum of absolute values. For degree m, the largest norm is
     ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The truncation error of the Taylor
-    polynomial is then about 2^-10 times the unit roundoff 2^-bits. The factor 2^-10 allows for the sum of the
-    truncation errors of many steps.
+    polynomial is then about 2^-10 times the unit roundoff 2^-bits. With the factor 2^-10, the sum of the
+    truncation errors of many time steps remains small.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -82,8 +85,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 class ExponentialAction(VectorFunction):
     """The function exp(A) y. Its arguments are entries of A, row by row, and the vector y.
 
-    If ``pattern`` is 0, all entries of A are arguments. Otherwise entry k of A is an argument only if bit k
-    of ``pattern`` is set. All other entries of A are zero.
+    If ``pattern`` is 0, all entries of A are arguments. If ``pattern`` is not 0, entry k of A is an
+    argument if bit k of ``pattern`` is set. The entries that are not arguments are zero.
     """
 
     n: int
@@ -114,15 +117,15 @@ class ExponentialAction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The number of scalars in each array of arguments. The first array contains the entries of A that
-        are arguments, and the second array is the vector y.
+        """The lengths of the argument arrays. The first array contains the entries of A that are
+        arguments, and the second array is the vector y.
         """
         return (len(self.places), self.n)
 
     @property
     def operations(self) -> dict[str, int]:
-        """The estimated numbers of additions and multiplications for one product of y with a
-        Taylor polynomial of degree 18.
+        """The estimated numbers of additions and multiplications in one call. The estimate assumes a Taylor
+        polynomial of degree 18, and no halvings of A.
         """
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
@@ -139,10 +142,10 @@ class ExponentialAction(VectorFunction):
         return result
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of exp(A) y.
+        """Return the derivative of exp(A) y in the direction ``rates``.
 
         ``args`` are A and y, and ``rates`` are their derivatives A' and y'. The result is the first half of
-        the vector exp([[A, A'], [0, A]]) (y', y). The second half of this vector is exp(A) y.
+        the vector exp([[A, A'], [0, A]]) (y', y).
         """
         space, n, entries = args[0].space, self.n, len(self.places)
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
@@ -153,7 +156,7 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # For a small block matrix, ``expanded`` omits the zero entries from the arguments.
+        # If the block matrix is small, its zero entries are not arguments of the call.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -163,11 +166,11 @@ class ExponentialAction(VectorFunction):
 
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
-        - If A is not zero and has at most :data:`SPARSE` rows, the result is a call. The arguments are the
-          non-zero entries of A, and y.
+        - If A is not zero and has at most :data:`SPARSE` rows, the results are calls of another
+          function. The arguments of this function are the non-zero entries of A, and y.
         - If A is not zero and has more rows, the result is None.
         """
-        # If ``pattern`` is not 0, the zero entries of A are already omitted.
+        # If ``pattern`` is not 0, the zero entries of A are not arguments.
         if self.pattern:
             return None
         size = self.n**2
@@ -177,7 +180,7 @@ class ExponentialAction(VectorFunction):
         if not pattern:
             return tuple(args[size:])
         # For a large matrix, separate sums for the rows would be long. Emitted code therefore contains a loop
-        # over all entries, and the zero entries remain arguments.
+        # over all entries, including the zero entries.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
@@ -210,11 +213,11 @@ class ExponentialAction(VectorFunction):
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # Let m be ``degree``. The next line changes ``weight`` from m!/k! to m!/(k - 1)!, exactly.
+                # Let m be ``degree``. The next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
                 # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # Now ``weight`` is m!, where m is ``degree``. The vector y is replaced by y + A (p/m!).
+            # Now ``weight`` is m!. The product of the Taylor polynomial and y is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -228,9 +231,9 @@ class ExponentialAction(VectorFunction):
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # The vector y is multiplied ``parts`` times by exp(A/``parts``). The norm of A is at most
-        # ``largest``, so the norm of A/``parts`` is below 1. For such a small norm, the Taylor series loses
-        # only few digits by cancellation.
+        # The vector y is multiplied ``parts`` times by exp(A/``parts``). The row sums of A are at most
+        # ``largest``, so the norm of A/``parts`` is below 1. Therefore the Taylor series of exp(A/``parts``)
+        # loses only few digits by cancellation.
         parts = int(largest) + 1
         work = context.clone()
         # Each product with exp(A/``parts``) adds a rounding error, so the working precision is higher than
@@ -240,7 +243,7 @@ class ExponentialAction(VectorFunction):
         y = [work.mpf(x) for x in args[entries:]]
         for _ in range(parts):
             term, k = y, 0
-            # The sum ends when a term is below the working precision.
+            # The sum ends when all entries of a term are negligible at the working precision.
             while any(abs(x) > work.eps * max(1, max(map(abs, y))) for x in term):
                 k += 1
                 term = [x / k for x in _product(rows, a, term)]
@@ -249,19 +252,22 @@ class ExponentialAction(VectorFunction):
         return tuple(context.mpf(x) for x in y)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for truncated power series, exactly. The constant terms of A must form a nilpotent
-        matrix, so that the exponential series is finite.
+        """Return the exact value of exp(A) y for truncated power series.
+
+        If the constant terms of A form a nilpotent matrix, the exponential series is finite. If the series
+        does not end, :class:`ArithmeticError` is raised.
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
         # Let A = A_0 + H, where A_0 contains the constant terms, and let p be ``ring.order``. The power
-        # A^(n (p + 1)) is a sum of products of A_0 and H. Products with more than p factors H are truncated.
-        # All other products contain A_0^n, which is 0 if A_0 is nilpotent. Hence the loop finds a zero term.
+        # A^(n (p + 1)) is a sum of products of A_0 and H. Truncation removes each product with more than p
+        # factors H. All other products contain A_0^n, which is 0 if A_0 is nilpotent. The truncated power
+        # is then zero, and the loop finds a zero term.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each term is a multiple of A times the previous term. After a zero term, all terms are zero.
+            # Each term is A times the previous term, divided by k. After a zero term, all terms are zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]

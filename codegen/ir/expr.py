@@ -4,7 +4,7 @@ In a space, equal expressions are the same object. Nodes are numbered in the ord
 compilation uses a new space, so earlier compilations do not influence the emitted text.
 
 Local rules simplify new nodes. For example, x - x becomes 0. A nested sum (a + b) + c is not replaced by one
-sum of three terms. Other expressions can thus share the node a + b.
+sum of three terms, because other expressions can share the node a + b.
 
 The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
 ``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
@@ -38,12 +38,12 @@ FUNCTIONS = (
     *MATHEMATICAL,
     ANGLE,
     *SELECTING,
-    # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
+    # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)! for z >= 0. For example, c_0(z) is cos(sqrt z).
     "stumpff0",
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_k for positive and negative z. For z < 0 these functions contain cosh and sinh.
+    # The functions c_k for positive and negative z. For example, c_0(z) is cosh(sqrt(-z)) for z < 0.
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -361,8 +361,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The arguments of ``arg`` are visited next. The stack ``users`` stores ``node`` and an
-                    # iterator over the remaining arguments of ``node``.
+                    # The arguments of ``arg`` are visited next. The stack ``users`` contains ``node`` and its
+                    # remaining arguments.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -426,8 +426,8 @@ def power(x: Scalar, n: int) -> Scalar:
     Emitted code computes a power by the same sequence of products.
     """
     result = x
-    # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because the first value of
-    # ``result`` already accounts for it.
+    # ``bin(n)`` begins with "0b" and the leading bit. The loop skips the leading bit, because ``result``
+    # starts at x.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

@@ -13,14 +13,13 @@ from codegen.ir.vector_calls import named
 class Formulas(ExprDomain):
     """A domain of expressions in which products and commutators of matrices become scalar formulas.
 
-    The compiler differentiates the user's formulas, expands them in series, and passes them to other
-    libraries. This is only possible for scalar formulas.
+    The compiler computes the time derivatives of states in this domain, because other libraries need scalar
+    formulas.
     """
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for the values of functions of time. Both domains share this table,
-        # so each value has the same symbol in both domains.
+        # This domain and ``domain`` use the same symbols for the values of functions of time.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -32,10 +32,10 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""A table from names of functions to safe arguments. At its safe argument, a function is finite.
+"""The safe argument of each function. A function is finite at its safe argument.
 
-All branches of a Piecewise formula are evaluated. In a branch that is not selected, the safe argument
-replaces the argument of the function. Otherwise the function could be infinite or undefined.
+All branches of a Piecewise formula are evaluated. In a branch that is not selected, a function could be
+infinite or undefined. Therefore the safe argument replaces the argument of the function in this branch.
 """
 
 
@@ -88,8 +88,8 @@ class _Reader:
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
             return self._float(e)
-        # A sum becomes a sequence of additions of two terms. The terms are sorted, so that the rounding
-        # errors depend only on the formula.
+        # A sum becomes a sequence of additions of two terms. The terms are sorted, because
+        # the rounding errors depend on the order of the additions.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -103,17 +103,17 @@ class _Reader:
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # atan2(y, x) is not differentiable at x = y = 0. If a Piecewise formula does not select the
-            # current branch, 1 replaces x.
+            # atan2(y, x) is not differentiable at x = y = 0. In a branch of a Piecewise formula that is not
+            # selected, 1 replaces x.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
-            # The last argument is the point of evaluation. The first arguments contain the data of the table.
+            # The last argument is the point of evaluation. All other arguments are the data of the table.
             return self.space.call(table, self.node(e.args[-1]))
         if name in JUMPING:
-            hint = "replace the function by a Piecewise formula or a table for the range of its argument"
+            hint = "use a Piecewise formula or a table that covers the range of the argument"
             raise SceneError(
                 f"{e} has infinitely many jumps",
                 where=self.where,
@@ -135,11 +135,10 @@ class _Reader:
         return self.space.const(Number.rational(*value.as_integer_ratio()))
 
     def guarded(self, x: Expr, safe: int) -> Expr:
-        """Return an expression for an argument x of a function in a branch of a Piecewise formula.
+        """Return an expression that replaces the argument x of a function in a branch of a Piecewise formula.
 
-        If the branch is selected, the value of the expression is x. Otherwise the value is ``safe``.
-
-        The result is x itself if x is constant or ``guard`` is None.
+        If the branch is selected, the value of the expression is x. If the branch is not selected, the value
+        is ``safe``. If x is constant or ``guard`` is None, x is returned.
         """
         # All branches are evaluated. In a branch that is not selected, a root, a quotient or a derivative
         # could be a NaN at x. At the argument ``safe`` the root, the quotient and the derivative are finite.
@@ -192,16 +191,14 @@ class _Reader:
         self.guard = outer
         # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # In sympy, the first true condition selects the branch. The outermost choice is tested first, so the
-        # loop adds the choices in reverse order.
+        # In sympy, the first true condition selects the branch. The choice by the first condition
+        # contains all other choices, so the loop adds it last.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Convert a product. All factors with negative exponents form one divisor, so that the result
-        contains only one division.
-        """
+        """Convert a product. All factors with negative exponents form one divisor."""
         import sympy
 
         # ``above`` contains the factors of the numerator, and ``below`` the factors of the divisor.
@@ -224,16 +221,16 @@ class _Reader:
             # An exponent such as 0.5 is converted to the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # A negative power is infinite for the base 0. If a Piecewise formula does not select the current
-            # branch, 1 replaces the base.
+            # A negative power is infinite for the base 0. In a branch of a Piecewise formula that is not
+            # selected, 1 replaces the base.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # If a Piecewise formula does not select the current branch, 1 replaces the base. The root and its
+            # In a branch of a Piecewise formula that is not selected, 1 replaces the base. The root and its
             # derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
-            # If n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2. If n < 0, the result is the
-            # reciprocal of x^(-n/2).
+            # The integer n is odd. If n > 0, the power x^(n/2) is x^m sqrt(x) with m = (n - 1)/2. If n < 0,
+            # the power x^(n/2) is the reciprocal of x^(-n/2).
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(
