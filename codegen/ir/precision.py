@@ -25,8 +25,9 @@ significand.
 class Precision:
     """A binary floating-point format of IEEE 754.
 
-    ``bits`` is the number of bits of the significand. ``suffix`` is the last letter of function names (such
-    as ``sinf``) and constants in C. ``largest`` is the largest finite number.
+    ``bits`` is the number of bits of the significand. ``suffix`` is appended to constants and to names of
+    mathematical functions in C: for ``float``, ``sin`` becomes ``sinf``. ``largest`` is the largest finite
+    number.
     """
 
     name: str
@@ -42,8 +43,8 @@ class Precision:
 
     @property
     def digits(self) -> int:
-        """The smallest number of significant decimal digits that distinguishes any two numbers of the
-        format.
+        """The smallest number of significant decimal digits with which different numbers of the format have
+        different decimal texts.
         """
         return 1 + math.ceil(self.bits * math.log10(2))
 
@@ -61,7 +62,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # For a NaN, both <= and > are False. Therefore the test is ``not <=`` and not ``>``.
+        # Every comparison with a NaN is False. With ``not <=`` in place of ``>``, a NaN is an error, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -88,7 +89,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # The caller :meth:`Precision.round` raises InputError for an infinite number.
+        # The value is too large. The caller :meth:`Precision.round` raises InputError for an infinity.
         return math.inf
 
 
@@ -104,14 +105,14 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     # The exact value is rounded directly to ``bits`` bits. Rounding to a double first could give a wrong
     # result: the double may lie exactly between two numbers of the format.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The exponent from the bit lengths is correct or too small by one.
+    # The bit lengths give an exponent that is correct or too small by one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Every number of the format is a multiple of the smallest positive number.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
-        # The caller :meth:`Precision.round` raises InputError for an infinite number.
+        # The value is too large. The caller :meth:`Precision.round` raises InputError for an infinity.
         return math.copysign(math.inf, exact)
 
 

@@ -5,10 +5,10 @@ the group. Each variable is assigned only once.
 
 Equations that depend on one another form a :class:`Solve` block u = g(u). The statements of the block compute
 g(u) from the unknowns u. A method with stages is translated to a program that has one block for all stages.
-Compiler passes then find stages that can be solved one after the other.
+Compiler passes split this block if the stages can be computed in sequence.
 
-The statements contain no branches. Their only loops are the iterations that solve blocks. All group elements
-are elements of the same group.
+A program has no branches. Its only loops are the iterations that solve blocks. All group elements belong to
+one group.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class Solve:
     - ``body`` contains the statements that compute g(u).
     - ``images`` are the variables with the values g(u), one for each unknown.
     - ``residuals`` is empty, or contains one residual for each unknown. At the solution, the residuals are
-      zero. Elsewhere each residual is about as large as the error of the corresponding unknown.
+      zero. Away from the solution, each residual is about as large as the error of its unknown.
 
     After the block, the variables of the body have their values at the solution. Later statements may use
     these values.
@@ -106,21 +106,22 @@ embedded solution. The embedded solution is used only to estimate the error of t
 POWERS = "power"
 """The prefix of the output names ``power1``, ``power2``, ... of a continuous extension (dense output).
 
-These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta). The coefficients are
-elements of the Lie algebra. Let y be the state at the time t. The solution at the time t + theta h is then
-approximately exp(sigma(theta)).y.
+These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta) with values in the Lie
+algebra. For a step of size h from the state y at the time t, the group element exp(sigma(theta)) acts on y.
+The result approximates the solution at the time t + theta h.
 """
 
 
 SPACE, BODY = "space", "body"
-"""The values of :attr:`Program.frame`: the statements use the momentum in the space frame or body frame."""
+"""The values of :attr:`Program.frame`. They name the frame of the momentum in the statements of a program."""
 
 
 @dataclass(frozen=True)
 class Substep:
-    """A substep of a composition method, in a step from t to t + h.
+    """One substep of a composition method.
 
-    The length of the substep is ``fraction`` * h. The substep begins at the time t + ``offset`` * h.
+    The method makes a step from the time t to t + h. The length of the substep is ``fraction`` * h. The
+    substep begins at the time t + ``offset`` * h.
     """
 
     fraction: Number
@@ -136,8 +137,8 @@ class Program:
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. The
     statements compute the new values q' and m'. The new value of mu is mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
-    In exact arithmetic, this value is Ad*_{q'^-1} m'. The difference reduces the effect of rounding errors
-    in q.
+    In exact arithmetic, this sum is Ad*_{q'^-1} m'. In rounded arithmetic, the sum is more accurate, because
+    rounding errors in q affect only the change of the momentum.
     """
 
     name: str
@@ -192,7 +193,7 @@ class Program:
 class Builder:
     """Builds a list of assignments.
 
-    A method such as :meth:`exp` appends an assignment and returns the new variable on its left-hand side.
+    A method such as :meth:`exp` appends an assignment. It returns the new variable that is assigned.
     """
 
     taken: set[str] = field(default_factory=set)
@@ -206,7 +207,7 @@ class Builder:
         while candidate in self.taken:
             n += 1
             candidate = f"{name}_{n}"
-        # No later variable gets this name, because each variable of a program is assigned only once.
+        # Each variable of a program is assigned only once, so this name must not be used again.
         self.taken.add(candidate)
         return Var(candidate, kind)
 
@@ -273,7 +274,7 @@ class Builder:
         return var
 
     def advance(self, target: str, t: Var, coefficient: Coefficient) -> Var:
-        """Append target = t + ``coefficient``, the time of a stage. ``coefficient`` is a multiple of h."""
+        """Append target = t + c h, the time of a stage with node c. The product c h is ``coefficient``."""
         return self.add(Advance(coefficient), target, t)
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
@@ -289,8 +290,8 @@ class Builder:
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
         """Append the exact flow of a term of the Hamiltonian, and return q and mu after the flow.
 
-        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, the
-        term is evaluated at the fixed time ``time``.
+        ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, ``time`` is
+        the time t at which the term is evaluated. During the flow, t is constant.
         """
         # The variable names contain the number of this assignment, so two flows have different names.
         number = 1 + len(self.body)
@@ -301,6 +302,6 @@ class Builder:
     def take(self) -> tuple[Assign, ...]:
         """Return the assignments appended so far, and clear the list."""
         body = tuple(self.body)
-        # ``taken`` is not cleared, so later assignments of the same program use different names.
+        # ``taken`` is not cleared: the names in the returned assignments must not be used again.
         self.body.clear()
         return body

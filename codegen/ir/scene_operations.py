@@ -23,12 +23,13 @@ class OfScene(OfGroup):
 
     @property
     def function(self) -> str:
-        """The name of the function that evaluates this operation. The scene defines this function."""
-        # If the formulas depend on time, the name of the function ends in ``t``.
+        """The name of the scene's function that evaluates this operation. If ``timed`` is true, the name ends
+        in ``t``.
+        """
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return ``arguments``. If ``timed`` is true, append the kind of the time."""
+        """Return ``arguments``, followed by the kind of the time if ``timed`` is true."""
         return arguments + R if self.timed else arguments
 
 
@@ -64,10 +65,10 @@ class HamiltonianDerivatives(OfScene):
 
 @dataclass(frozen=True)
 class BodyVelocity(OfScene):
-    """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
+    """The velocity W(q, P), for a momentum P in the body frame (:mod:`codegen.scene.body_frame`)."""
 
-    # The velocity and the force are separate operations. If only one of them is used at a point, compiler
-    # passes can remove the other one.
+    # The velocity and the force are separate operations, so compiler passes can remove one of them if it is
+    # unused.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -77,10 +78,10 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """The force N(q, P) in the body frame, where P = Ad*_q mu.
+    """The force N(q, P), for a momentum P in the body frame (:mod:`codegen.scene.body_frame`).
 
-    The force and the velocity are computed from the derivatives of the Hamiltonian. In the cost of a method,
-    the force counts as one evaluation of the derivatives. The velocity is not counted.
+    The force and the velocity W(q, P) use the same derivatives of the Hamiltonian. In the cost of a method,
+    only the force counts as an evaluation of the derivatives.
     """
 
     name = "force"
@@ -96,7 +97,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # The momentum is a constant matrix times the velocity. No formula of the scene is needed.
+    # P is a constant matrix times W, so this operation has no time argument.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -126,15 +127,15 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
+    """A discrete differential of the energy, for the arguments g, x, H0 and H1.
 
-    The covector g approximates the gradient. The vector x is the displacement between two points with the
-    energies H0 and H1. Among all covectors c with <c, x> = H1 - H0, the result has the smallest Euclidean
-    distance from g. For x = 0 the result is g.
+    The group element exp(x) moves a point with the energy H0 to a point with the energy H1. The covector g
+    approximates the differential of the energy between the two points. Among the covectors c with the pairing
+    <c, x> = H1 - H0, the result is the one closest to g in the Euclidean norm. For x = 0 the result is g.
     """
 
     # The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>. For x = 0 this fraction is 0/0.
-    # Therefore this class computes the whole formula and returns g for x = 0.
+    # The formula is one operation, because a program has no branches for the case x = 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -144,8 +145,8 @@ class Secant(OfGroup):
 class Bivector(OfGroup):
     """The bivector omega_y at the point y, applied to a covector alpha.
 
-    The bivector is a skew-symmetric linear map from the dual of the Lie algebra to the Lie algebra. If alpha
-    is the differential of the energy H at y, the result is the vector field f(y).
+    The bivector is a skew-symmetric linear map from the dual of the Lie algebra to the Lie algebra. It maps
+    the differential of the energy at y to the vector field f(y) of the problem.
     """
 
     # The operation is linear in alpha. For alpha = c beta with a number c, compiler passes may compute the
@@ -158,10 +159,10 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The state after a Taylor step: the Taylor polynomial of the solution about t, evaluated at t + h.
+    """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
-    The value of the solution at the time t is y. The argument of the operation is y. If ``timed`` is true,
-    the arguments are y and t.
+    The argument is the state y at the time t. If ``timed`` is true, the arguments are y and t. The result
+    has the coordinates of :mod:`codegen.scene.evolution`.
     """
 
     degree: int
@@ -171,7 +172,7 @@ class TaylorStep(Operation):
     noun = "Taylor polynomial{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the degree of the polynomial."""
+        """Return the name of the operation, followed by ``degree`` in parentheses."""
         return f"{self.name}({self.degree})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -179,8 +180,8 @@ class TaylorStep(Operation):
         return P + R if self.timed else P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the value of the Taylor polynomial at the end of the step."""
-        # For a Taylor polynomial, the argument ``order`` of ``apply`` is the degree.
+        """Return the value of the Taylor polynomial at t + h."""
+        # The third argument of ``apply`` is called ``order``. For a Taylor polynomial, it is the degree.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -199,8 +200,8 @@ class CayleyElement(OfGroup):
 class Sandwich(OfGroup):
     """The product x y x of two elements x and y of the Lie algebra.
 
-    The elements are matrices or quaternions. For a group with a quadratic equation such as g^T g = 1, the
-    product is in the Lie algebra.
+    The elements are matrices or quaternions. The product is in the Lie algebra if the group is defined by a
+    quadratic equation such as g^T g = 1.
     """
 
     linear_in_last = True
@@ -211,9 +212,10 @@ class Sandwich(OfGroup):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """An approximate projection of a point y onto the orbit of a point z under the group action.
+    """The result y of a :class:`TaylorStep`, projected approximately onto the manifold.
 
-    The arguments are y and z.
+    The arguments are y and the state z at the beginning of the step. The manifold is the orbit of z under the
+    group action.
     """
 
     name = "to_orbit"
@@ -226,14 +228,13 @@ class FlowOf(Operation):
     """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
     ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
-    a time t. The term is evaluated at the fixed time t.
+    the time t at which the term is evaluated. During the flow, t is constant.
     """
 
     part: str
     duration: Coefficient
     timed: bool = False
-    # A flow and an exponential have about the same cost. Each of them computes an angle, its sine and cosine,
-    # and a product.
+    # In the cost of a method, a flow counts as one exponential, because both take about the same time.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"
@@ -258,9 +259,9 @@ class FlowOf(Operation):
 # The interpreter evaluates a program for one site of a lattice, so it cannot evaluate this operation.
 @dataclass(frozen=True)
 class SiteFlowOf(Operation):
-    """The state of a lattice after the exact flow of one part of its vector field, for a fixed duration.
+    """The state of a lattice after the exact flow of one part of the vector field, for a fixed duration.
 
-    ``part`` is the name of this part. The flow changes all sites together.
+    ``part`` is the name of this part. The flow changes all lattice sites together.
     """
 
     part: str
@@ -282,7 +283,7 @@ class SiteFlowOf(Operation):
         return P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Raise ArithmeticError, because the flow cannot be evaluated for a single site."""
+        """Raise ArithmeticError, because the flow is not defined for a single lattice site."""
         raise ArithmeticError("the flow of a lattice changes all sites and is not defined for a single site")
 
 
