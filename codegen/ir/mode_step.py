@@ -31,7 +31,7 @@ each term.
 """
 
 STATE = -1
-"""The value of :attr:`Term.source` for a multiple of the old state."""
+"""The value of :attr:`Term.source` if the term is a multiple of the old state."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class Multiplier:
         total = Multiplier()
         for a, x in self.terms.items():
             for b, y in other.terms.items():
-                # The operator + adds the coefficients of equal monomials.
+                # Two products may have the same monomial. The operator + adds their coefficients.
                 total = total + Multiplier({_product(a, b): x * y})
         return total
 
@@ -119,7 +119,7 @@ class Multiplier:
     @property
     def factors(self) -> tuple[Factor, ...]:
         """The factors of all terms, without repetitions, in the order of :attr:`key`."""
-        # The dictionary removes repeated factors and keeps their order.
+        # ``dict.fromkeys`` removes repetitions and keeps the order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
     def text(self) -> str:
@@ -150,7 +150,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
-            # exp(a z)^n = exp(n a z), so the scale is added n times.
+            # exp(a z)^n = exp(n a z), so ``factor.scale`` is added n times.
             for _ in range(n):
                 exponent = exponent + factor.scale
         else:
@@ -202,8 +202,8 @@ class Term:
 class Evaluation:
     """An evaluation of the nonlinear part N in a step.
 
-    N is evaluated at the sum of the terms in ``point``, and at the time t + ``time`` * h. The step begins at
-    the time t and has size h.
+    The argument of N is the sum of the terms in ``point``. The time of the evaluation is t + ``time`` * h,
+    where the step leads from t to t + h.
     """
 
     point: tuple[Term, ...]
@@ -214,12 +214,13 @@ class Evaluation:
 class Nonlinearity:
     """The nonlinear part N(u). It is a sum of x-derivatives of functions f_j.
 
-    - ``inner`` contains a pair (order, symbol) for each x-derivative of u in the functions f_j. Order 0 is u.
-    - ``outer`` contains, for each j, the number of times that f_j is differentiated with respect to x.
+    - ``inner`` lists the x-derivatives of u that occur in the functions f_j. Each entry is a pair (order,
+      name of the derivative). Order 0 is u itself.
+    - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
     - ``formulas`` computes the values of all f_j at one point x. Its inputs are the derivatives in ``inner``,
       x, t and the parameters.
-    - ``kept`` is a fraction. The step uses this fraction of the Fourier modes of N. To avoid aliasing, it
-      sets the modes with the highest wave numbers to zero.
+    - ``kept`` is the fraction of the Fourier modes of N that the step uses. To avoid aliasing, the modes with
+      the highest wave numbers are set to zero.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -232,9 +233,9 @@ class Nonlinearity:
 class ModeStep:
     """One step on Fourier modes.
 
-    - ``tables`` contains the coefficients of all terms.
+    - ``tables`` contains the coefficients. A :class:`Term` contains the index of its coefficient.
     - ``evaluations`` contains the evaluations of N, in the order of execution.
-    - ``result`` contains the terms whose sum is the new state.
+    - ``result`` contains the terms of the new state. The new state is their sum.
     - ``nonlinearity`` is the nonlinear part N.
     - ``wave`` and ``space`` are the names of two variables: the wave number and x.
     - ``symbol`` computes the eigenvalue lambda of L from the wave number. The first output is the real part
@@ -255,9 +256,8 @@ class ModeStep:
 
     @property
     def complex(self) -> bool:
-        """True if L may have eigenvalues that are not real."""
-        # For real eigenvalues, ``symbol`` has one output. Otherwise its outputs are the real part and the
-        # imaginary part.
+        """True if the linear operator L may have eigenvalues that are not real."""
+        # The kernel ``symbol`` computes the imaginary part of an eigenvalue only if it may be nonzero.
         return len(self.symbol.outputs) > 1
 
     @property
@@ -285,33 +285,33 @@ class ModeStep:
 
     @property
     def growth(self) -> int:
-        """An exponent p for the growth of the coefficients of the step.
+        """An exponent p that bounds the functions of z in the coefficients (:attr:`Table.multiplier`).
 
-        For z < 0, the absolute value of each coefficient is at most C (1 + |z|)^p. The constant C does not
-        depend on z. If :attr:`backwards` is true, p has no meaning, because some coefficients grow
-        exponentially.
+        For z < 0, the absolute value of each function is at most C (1 + |z|)^p. The constant C does not
+        depend on z. If :attr:`backwards` is true, some functions grow exponentially and p has no meaning.
         """
-        # ``degrees`` describes each function by a power of |z| for z -> -infinity. For example, phi_1(z)
-        # behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|. The function exp(z) is bounded.
+        # A function with the value d in ``degrees`` grows at most like |z|^d for z -> -infinity. For example,
+        # phi_1(z) behaves like |z|^-1, and z/(exp(z) - 1) behaves like |z|.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
-        # The degree of a product is the sum of the degrees of its factors. The result is the largest degree
-        # of all terms.
+        # The degree of a product is the sum of the degrees of its factors. The result is the degree of the
+        # fastest growing product.
         products = [m for table in self.tables for m in table.multiplier.terms]
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
     def kernels(self) -> tuple[Kernel, ...]:
-        """Return the kernels that compute the eigenvalues, the interval length, N and the initial state."""
+        """Return the kernels for the eigenvalues of L, the interval length, N and the initial state."""
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run."""
-        # The kernel ``initial`` is omitted, because the initial state is computed before a run.
+        # The initial state is computed before a run, so the kernel ``initial`` is omitted.
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
     def explanation(self) -> list[str]:
-        """Return lines of text that describe the stages U1, U2, ... and the new state by formulas in z. In
-        these lines N1 denotes N(U1).
+        """Return lines of text with the formulas of the stages U1, U2, ... and of the new state.
+
+        In these formulas, N1 denotes N(U1), and z is h times an eigenvalue of L.
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
@@ -319,7 +319,7 @@ class ModeStep:
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
-        lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
+        lines.append("z is h times an eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
             # The poles are not real. If all eigenvalues are real, the text does not mention the poles.
             poles = ", unbounded near the poles z = 2 pi i m for integers m != 0" if self.complex else ""
@@ -336,11 +336,11 @@ class ModeStep:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
             power = "|z|" if self.growth == 1 else f"|z|^{self.growth}"
-            return f"some grow like {power}, so short steps may be required"
+            return f"some grow like {power}, which may limit the step size"
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return the formula ``name`` = sum of ``terms``, followed by ``remark``, as one or more lines."""
+        """Return lines with the formula ``name`` = sum of ``terms``. The last line ends with ``remark``."""
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"
@@ -352,6 +352,6 @@ class ModeStep:
         line = f"{name} = {' + '.join(words) or '0'}{remark}"
         if len(line) <= WIDTH:
             return [line]
-        # A long formula is printed with one term on each line. The remark follows the last term.
+        # A long formula is printed with one term on each line.
         lines = [f"{name} = {words[0] if words else 0}", *(f"+ {word}" for word in words[1:])]
         return [*lines[:-1], lines[-1] + remark]

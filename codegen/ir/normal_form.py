@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers of expressions. Each power is a pair (node number of the expression, exponent). The
-pairs are sorted by node number.
+"""A product of powers of variables, as sorted pairs (node number, exponent). The node number is the ``id``
+of the expression that is the variable.
 """
 
 Polynomial = dict[Monomial, Number]
@@ -29,36 +29,36 @@ pair (number, symbols) and denotes the product of the number and the symbols.
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
-"""The largest number of terms of a polynomial. An expression whose expansion has more terms is not
-simplified.
+"""The largest number of terms of a product of polynomials. If a product in the expansion of an expression has
+more terms, the expression is not simplified.
 
-Without a limit, the simplification of a long expression could be very slow. The exact value is not critical:
-the emitted files are the same for the limits 200 and 800.
+Without a limit, the simplification of a long expression could be very slow. The limits 200 and 800 lead to
+the same emitted files.
 """
 
 
 class TooLong(ArithmeticError):
-    """Raised if the expansion of an expression has more than :data:`MOST_TERMS` terms."""
+    """Raised if a product of polynomials is too long (:data:`MOST_TERMS`)."""
 
 
 class NormalForms:
     """Simplifies the expressions of ``space``.
 
-    Each relation in ``relations`` replaces a product of two symbols by an equal sum. The replacement is
-    repeated until no relation applies. The caller must choose relations for which this process ends. Each
+    Each relation in ``relations`` replaces a product of two symbols by a sum (:data:`Relation`). Products are
+    replaced until no relation applies. The caller must choose relations for which this process ends. Each
     expression in ``whole`` is treated as one variable and is not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials contain node numbers, because integers are sorted and hashed fast. ``atoms`` maps the node
-        # numbers to the nodes.
+        # Monomials contain node numbers, because integers are faster to sort and hash than expressions.
+        # ``atoms`` maps each node number to its expression.
         self.atoms: dict[int, Expr] = {}
         # An expression in ``whole`` is not expanded: it becomes a variable of the polynomials.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # The key in ``rules`` is the pair of node numbers of a and b, in ascending order.
+            # The node numbers of a and b are sorted, so the relations for a b and for b a have the same key.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -66,13 +66,13 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # A relation may also apply to a term of ``right``. The method ``_reduced`` replaces this term.
+            # The sum ``right`` may contain further products to replace. ``_reduced`` replaces these products.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return the simplified form of ``root``. If the relations hold, both expressions have equal values.
+        """Return the simplified form of ``root``. It equals ``root`` if the relations hold.
 
-        If the expansion has too many terms, ``root`` itself is returned.
+        If a product in the expansion has too many terms, ``root`` itself is returned.
         """
         try:
             return self.expression(self.polynomial(root))
@@ -80,9 +80,9 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Expand ``root`` as a polynomial, and apply the relations until no relation applies.
+        """Expand ``root`` as a polynomial, and replace products by the relations until no relation applies.
 
-        :class:`TooLong` is raised if the polynomial has too many terms.
+        :class:`TooLong` is raised if a product in the expansion has too many terms.
         """
         known_forms = self.known
         for node in walk([root], lambda n: n.id in known_forms):
@@ -102,14 +102,13 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # A relation replaces a product of two symbols. A multiplication can create such a
-                    # product, but an addition cannot.
+                    # Relations replace products of two symbols. Only a multiplication can create such a
+                    # product, so sums need no reduction.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
                     for _ in range(node.payload - 1):
-                        # The value is reduced after each factor, so that the intermediate polynomials stay
-                        # short.
+                        # Reduction after each multiplication keeps the polynomials short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
                     # The quotient a/b becomes the product of a and the new variable 1/b.
@@ -122,16 +121,16 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression. The variable that occurs in the largest number of terms is
-        factored out first.
+        """Return a polynomial as an expression. To save multiplications, the variable that occurs in most
+        terms is factored out first.
         """
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. If several variables occur in the largest number of
-        # terms, the variable with the smallest node number is factored out.
+        # This is Horner's rule in several variables. If two variables occur equally often, the variable with
+        # the smaller node number is factored out.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # If no variable occurs in two terms, factoring out saves no multiplication.
         if best < 0 or count[best] < 2:
@@ -145,8 +144,8 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # The polynomial is ``best`` times ``inside`` plus ``outside``. The recursion ends, because ``inside``
-        # has lower degrees and ``outside`` has fewer terms.
+        # The polynomial is ``best`` times ``inside`` plus ``outside``. The recursion ends: each monomial of
+        # ``inside`` has a lower degree than before, and ``outside`` has fewer terms.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -192,8 +191,8 @@ class NormalForms:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The term must contain the product of the variables i and j. If i = j, the exponent of i must
-                # be at least 2.
+                # The relation applies if the product of i and j divides the monomial. If i = j, the exponent
+                # of i must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1

@@ -3,8 +3,9 @@
 Rational and algebraic numbers are stored exactly. Any other number is stored as a ball, that is, as an
 interval that contains the number. When code is printed, each number is rounded to a floating-point number.
 
-Two balls with equal end points are treated as the same number (:attr:`Number.key`). The difference of two
-equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1 does not change a ball.
+Two balls with equal end points are treated as the same number (:attr:`Number.key`). If the operands are the
+same number, subtraction gives exactly 0 and division gives exactly 1. Multiplication by 1 does not change a
+ball.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The pattern limits the length of a number and the length of its exponent. Without these limits,
+# The pattern limits the number of digits, and the exponent to three digits. Without these limits,
 # ``Fraction("1e999999999")`` would build an integer with a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
@@ -32,7 +33,7 @@ def is_normal(value: Fraction) -> bool:
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
-    # A denormal double has fewer than 53 bits, so rounding to it may cause a larger relative error.
+    # A denormal double has fewer than 53 bits, so its relative rounding error may be larger.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -121,7 +122,7 @@ class Number:
             ring = self.ring
             return ring, self.element, ring.rational(int(other.element.p), int(other.element.q))
         names = f"{self.ring.name} and {other.ring.name}"
-        raise TypeError(f"numbers of two different number fields cannot be combined: {names}")
+        raise TypeError(f"numbers of two different rings cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
         # Rational numbers are added directly. This is faster than the test ``self == -other`` below, which
@@ -171,7 +172,7 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # A double has about 17 digits. The error of an approximation with 40 digits is negligible.
+        # A double has about 16 digits, so an approximation with 40 digits is accurate enough.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

@@ -22,8 +22,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each of these tuples describes one argument. The sum of two tuples describes two arguments: ``G + A`` means
-# a group element and an element of the Lie algebra.
+# Each tuple contains the kind of one argument or result. A sum of tuples contains the kinds of several:
+# ``G + A`` means a group element and an element of the Lie algebra.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -33,12 +33,12 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 class Problem(Protocol):
     """The differential equation to solve: the Lie group, its action, and the vector field or Hamiltonian.
 
-    The user defines a problem in a scene. The argument ``domain`` of a method determines the type of the
-    scalars: for example doubles, power series or expressions.
+    A scene is the user's definition of a problem. The argument ``domain`` of the methods determines the type
+    of the scalars: for example doubles, power series or expressions.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function called ``name``. The group, its action or the scene defines it.
+        """Return the results of the function ``name`` of the group, of its action or of the scene.
 
         For the truncated dexp^{-1} and its derivative, ``order`` is the order of the truncation. For a Taylor
         polynomial, ``order`` is the degree. For all other functions, ``order`` is None.
@@ -69,7 +69,7 @@ class Operation(ABC):
     """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. In some classes,
     the kinds depend on parameters of the operation. Such a class overrides :meth:`signature`.
     """
-    # Compiler passes simplify linear operations, for example by ad_x(c v + w) = c ad_x v + ad_x w.
+    # Compiler passes use linearity to simplify programs, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
     # The reported cost of a method consists of the evaluations of the vector field (or of the derivatives of
@@ -79,11 +79,11 @@ class Operation(ABC):
     Hamiltonian.
     """
     exponentials: ClassVar[int] = 0
-    """The number of exponentials or exact flows that the operation computes."""
+    """The number of exponentials in the reported cost. A coordinate map or an exact flow counts as one."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports of the cost. If the operation costs nothing, the name is ''. In
-    the plural, the report replaces ``{s}`` by "s". In the singular, it omits ``{s}``.
+    """The name of the operation in reports of the cost, with ``{s}`` for the "s" of the plural. If the
+    operation costs nothing, the name is ''.
     """
 
     @property
@@ -146,7 +146,7 @@ class Linear(Operation):
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the result for a combination in the Lie algebra."""
-        # The object does not store whether its vectors belong to the algebra or to the dual. The method
+        # The operation does not store whether its vectors belong to the algebra or to the dual.
         # :meth:`accepts` permits both.
         return (Kind.ALG,) * len(self.coefficients), A
 
@@ -154,8 +154,8 @@ class Linear(Operation):
         """Return True if there is one argument for each coefficient, and all arguments and the result have
         the same kind. This kind must be the algebra or its dual.
         """
-        # A sum without terms is not accepted, because the kind of the sum would be unknown. The zero vector
-        # is an object of :class:`Zero`.
+        # A sum without terms is not accepted: its kind would be unknown. The operation :class:`Zero` gives
+        # the zero vector.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -167,8 +167,8 @@ class Linear(Operation):
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the linear combination. Vectors with equal coefficients are added before they are multiplied
-        by the coefficient.
+        """Return the linear combination. Vectors with equal coefficients are added first. Their sum is then
+        multiplied by the coefficient.
         """
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
@@ -180,7 +180,7 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product with the coefficient 1 is omitted, because a product of two power series is slow.
+                # The scalars may be power series. A product of series is slow and is omitted for c = 1.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -189,9 +189,7 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """The time t + c h of a stage with node c and step size h. The argument is t. The product c h is
-    ``coefficient``.
-    """
+    """The time t + c h of a stage with node c. The argument is t, and ``coefficient`` is c h."""
 
     coefficient: Coefficient
     name = "advance"
@@ -217,7 +215,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # The value None means that there is no order of truncation.
+        # These functions are not truncated, so ``order`` is None.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -253,7 +251,7 @@ class ElementAt(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
-    """The element dtau^{-1}_x y of the Lie algebra, where tau is the coordinate map of the scene.
+    """The element dtau^{-1}_x y of the Lie algebra, where the coordinate map tau is defined in the scene.
 
     Let x(t) be a curve with x' = dtau^{-1}_x y. Then the curve g(t) = tau(x(t)) in the group satisfies
     g' = y.g. For matrices, y.g is the matrix product.
@@ -384,9 +382,9 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The functions of ad_x that the operation applies: only the truncated dexp^{-1}."""
-        # A word is a product of functions of ad_x. If successive operations have the same x, a compiler pass
-        # replaces these operations by one. Its word is the product of all functions.
+        """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
+        # If one function of ad_x is applied to the result of another with the same x, a compiler pass
+        # replaces both by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -405,11 +403,10 @@ class InverseDexp(Operation):
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """The transposed derivative of dexpinv_x y with respect to x, applied to mu.
+    """The vector P* mu, where P is the derivative of dexpinv_x y with respect to x, and P* is its transpose.
 
-    The arguments are x and y in the Lie algebra and mu in its dual. Here dexpinv is the truncated dexp^{-1}
-    of order ``order``. Let P z be the derivative of dexpinv_x y with respect to x in the direction z. The
-    result P* mu satisfies <P* mu, z> = <mu, P z> for all z.
+    The arguments are x and y in the Lie algebra and mu in its dual. Here dexpinv is the series of dexp^{-1},
+    truncated at the order ``order``. For each z in the Lie algebra, <P* mu, z> = <mu, P z>.
     """
 
     order: int
@@ -439,15 +436,15 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The functions of ad*_x that the operation applies: only dexp."""
+        """The operation as a product of functions of ad*_x. The only factor is dexp."""
         return (Factor("dexp", UNIT),)
 
 
 @dataclass(frozen=True)
 class AdSeries(Operation):
-    """A product of functions of ad_x, applied to a vector. The arguments are x and this vector.
+    """A product of operators f(ad_x), applied to a vector v. The arguments are x and v.
 
-    ``word`` lists the functions. If ``dual`` is true, ad*_x replaces ad_x.
+    ``word`` lists the functions f. If ``dual`` is true, ad*_x replaces ad_x.
     """
 
     word: Word
@@ -461,8 +458,7 @@ class AdSeries(Operation):
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the functions in ``word``."""
-        # In printed programs, the functions are in square brackets. The arguments follow in parentheses.
+        """Return the name of the operation, followed by the functions in ``word`` in square brackets."""
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -474,10 +470,10 @@ class AdSeries(Operation):
         """Return True if ``word`` is not empty and the operation maps arguments of these kinds to results of
         these kinds.
         """
-        # An empty word is not accepted. It would be the identity map, which needs no operation.
+        # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions in ``word``, applied to the last argument."""
-        # Functions of one operator ad_x commute, so the order of the functions does not matter.
+        # All functions have the same operator ad_x and commute, so their order does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

@@ -72,7 +72,7 @@ def test_only_rationals_have_a_fraction():
 def test_numbers_of_two_fields_do_not_meet():
     text = 'name = "x"\nfamily = "rk"\nA = [["0"]]\nb = ["sqrt(2)"]\n'
     tableau = Tableau.loads(text)
-    with pytest.raises(TypeError, match="two different number fields"):
+    with pytest.raises(TypeError, match="two different rings"):
         field()[0] + Number(tableau.ring, tableau.method.b[0])
 
 
