@@ -157,7 +157,7 @@ class Number:
     def __truediv__(self, other: Number) -> Number:
         # If x is given by a ball (an interval), x/x would be a ball around 1. No simplification treats such a
         # ball as 1, so the exact 1 is returned here.
-        if self == other:
+        if self == other and not other.is_zero:
             return Number.rational(1)
         ring, x, y = self._join(other)
         return Number(ring, x / y)

@@ -97,3 +97,8 @@ def test_typed_numbers_are_read_exactly(text, value):
 def test_what_is_no_number_or_none_that_a_double_holds_is_refused(text):
     with pytest.raises(ValueError, match="a rational number"):
         Number.read(text)
+
+
+def test_zero_has_no_inverse():
+    with pytest.raises(ZeroDivisionError):
+        Number.rational(0) / Number.rational(0)
