@@ -65,20 +65,20 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     widths = [part.shape[1] for part in flat]
     known = [width for _, width in fields]
     if sum(widths) != size or (len(flat) > 1 and known and widths != known):
-        parts_text = f", or a tuple of arrays with {known} numbers each" if len(flat) > 1 and known else ""
+        parts_text = f", or a tuple of arrays, {known} numbers per state" if len(flat) > 1 and known else ""
         raise ValueError(
             f"expected an array of N states with {size} numbers each{parts_text}, "
             f"found arrays of shape {shapes}"
         )
-    # The array is always new, because the run overwrites its entries.
+    # Emitted code overwrites the array. The array must therefore not share memory with ``states``.
     return np.array(np.concatenate([part.T for part in flat]), dtype=_format(real), order="C")
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of the array ``out`` without a copy.
+    """Return the transpose of the array ``out`` without a copy. The transpose has the layout of emitted C.
 
-    ``out`` must be a writeable array of shape (N, size) in Fortran order, with the number format ``real``. In
-    all other cases, ValueError is raised.
+    ``out`` must be a writeable array of shape (N, size) in Fortran order, with the number format ``real`` and
+    N > 0. Otherwise ValueError is raised.
     """
     import numpy as np
 

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The update of the momentum u conjugate to the time, after a linear step from y to Y = (Q, P).
+    """The update of the momentum u conjugate to the time t, after a linear step from y to Y.
 
-    Q and P are the new positions and momenta. The new value of u is u + (Q.P' - P.Q')/2. The prime denotes
-    the derivative with respect to the time t for fixed y and fixed step size h. The arguments are the point
-    (y, u) before the step, the point (Y, u) after the step, and t. The result is Y with the new value of u.
-    The program ``step`` computes (Y, u) from (y, u) and t.
+    Let Q and P be the positions and the momenta in Y. The new value of u is u + (Q.P' - P.Q')/2. The prime
+    denotes the derivative with respect to t for fixed y and fixed step size h.
+
+    The arguments are (y, u), (Y, u) and t. The result is Y with the new value of u. The program ``step``
+    computes (Y, u) from (y, u) and t. It is needed for the derivatives.
     """
 
     step: Program
@@ -34,24 +35,24 @@ class TimeMomentum(Operation):
     noun = "evaluation{s} of the momentum conjugate to the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the point that consists of Y and the new momentum u + (Q.P' - P.Q')/2."""
+        """Return Y with the new value of u."""
         start, end, t = args
-        # Only expressions can be differentiated. In other domains, the step is therefore repeated with
-        # expressions.
+        # Only expressions can be differentiated. For other domains, ``_evaluated`` computes the step once
+        # more, with expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the increment (Q.P' - P.Q')/2 of the momentum u as a scalar of ``domain``."""
-        # The step is computed with symbols for y and t, and differentiated. The values ``start`` and ``t``
-        # then replace the symbols.
+        """Return the increase of the momentum u as a scalar of ``domain``."""
+        # First the step is computed with symbols for y and t, and Y is differentiated with respect to t. Then
+        # the values ``start`` and ``t`` replace the symbols.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # The symbols in ``point`` do not depend on t. Hence y is fixed in the derivative with respect to t.
+        # The derivative is taken for fixed y. Therefore the symbols in ``point`` do not depend on t.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

@@ -2,14 +2,15 @@
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
 where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. The coefficients of I,
-H and H^2 depend only on p and q. Horner's rule computes these coefficients from the Taylor polynomial of the
-exponential, and replaces H^3 by p H + q I in each step. This method has no divisions, and is also accurate
-for equal eigenvalues (M. Luescher, SU(3) matrix functions, notes of openQCD).
+H and H^2 depend only on p and q. They are computed from the Taylor polynomial of exp X by Horner's rule. Each
+step of Horner's rule multiplies by H, and replaces H^3 by p H + q I. No step divides by differences of
+eigenvalues, so equal eigenvalues need no special case (M. Luescher, SU(3) matrix functions, notes of
+openQCD).
 
 All eigenvalues of H are bounded by 2 (p/3)^(1/2) in absolute value. If this bound is large, the Taylor
 polynomial is evaluated for X/2^s instead of X. The matrix exp(X/2^s) is then squared s times.
 
-The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
+The matrix X has eight real coordinates. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
 j < k, row by row. The last two coordinates are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
 """
@@ -38,18 +39,19 @@ parts of all entries, followed by the imaginary parts.
 """
 
 PLACES = ((0, 1), (0, 2), (1, 2))
-"""The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
+"""The indices (j, k) of the entries above the diagonal, in the order of the coordinates of X."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, and for exp X in mpmath
-numbers and power series.
+"""The exponential of real 6 x 6 matrices. The derivatives of exp X are computed by this function, and also
+exp X for mpmath numbers and power series.
 """
 
 
 def most_squarings(bits: int) -> int:
-    """Return the largest s for which s squarings of exp(X/2^s) give at least three correct decimal digits.
+    """Return the largest allowed number s of squarings of the matrix exp(X/2^s).
 
-    If the unit roundoff is 2^-``bits``, the relative error after s squarings is at most 2^(s - ``bits`` + 6).
+    Let 2^-``bits`` be the unit roundoff. The relative error after s squarings is at most
+    2^(s - ``bits`` + 6). This bound must not exceed 2^-10, which corresponds to three correct decimal digits.
 
     >>> most_squarings(53)
     37
@@ -59,7 +61,9 @@ def most_squarings(bits: int) -> int:
 
 @dataclass(frozen=True)
 class SpecialUnitaryExponential(VectorFunction):
-    """The exponential of a matrix of su(3), given by its eight coordinates."""
+    """The exponential of a matrix X of su(3). The arguments are the eight coordinates of X, which are defined
+    in :mod:`codegen.ir.unitary_exponential`.
+    """
 
     n: int = ROWS
 
@@ -80,22 +84,21 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """The numbers of additions and multiplications for a Taylor polynomial of degree 12.
-
-        The squarings are not counted.
+        """The numbers of additions and multiplications in a typical call: a Taylor polynomial of degree 12,
+        and no squarings.
         """
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results, computed by the exponential of real 6 x 6 matrices.
+        """Return the derivatives of the results. They are computed with real 6 x 6 matrices.
 
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
         # ``embedded`` is linear. The derivative of the real matrix is therefore ``embedded(rates, zero)``.
         both = (*embedded(args, zero), *embedded(rates, zero))
-        # The argument 1 requests the derivative of first order. The results are the entries of the
-        # exponential, followed by the entries of its derivative.
+        # ``MatrixExponential(n, 1)`` returns the entries of the exponential, then the entries of its first
+        # derivative.
         general = MatrixExponential(2 * ROWS, 1)
         slopes = args[0].space.vector(general.name, both)
         return first_columns(slopes[GENERAL.size :])
@@ -148,14 +151,15 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then the entries of B, for a matrix with the block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
-    # The first ``ROWS`` columns contain the block A above the block B.
+    # In the first three columns, the upper three rows are A, and the lower three rows are B.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
 def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     """Return the exponential of the matrix with the coordinates ``x``.
 
-    All results are NaN if three correct digits cannot be guaranteed.
+    If the norm of the matrix is too large, rounding errors could leave fewer than three correct digits. All
+    results are then NaN.
     """
     scale, squarings, norm = _halvings(_bound(x))
     total = _polynomial([a * scale for a in x], norm)
@@ -216,8 +220,8 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    ``x`` are the coordinates of the matrix i H. If a and b are the two coordinates for the pair j < k, the
-    entry (j, k) of H is b - i a.
+    ``x`` are the coordinates of the matrix i H. If j < k and the entry (j, k) of i H has the coordinates a
+    and b, the entry (j, k) of H is b - i a.
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
@@ -257,10 +261,10 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
 
 
 def _polynomial(y: list[float], norm: float) -> list[float]:
-    """Return the value of the Taylor polynomial of the exponential for the matrix with the coordinates ``y``.
+    """Return a Taylor polynomial of exp X for the matrix X with the coordinates ``y``.
 
-    ``norm`` is an upper bound of the norm of the matrix. The polynomial has the smallest degree in
-    :data:`DEGREES` that is accurate for this bound.
+    ``norm`` is an upper bound of the norm of X. The degree is the smallest number in :data:`DEGREES` with a
+    negligible truncation error.
     """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
@@ -270,7 +274,7 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # The term of degree 4 * ``group`` + k has the factor i^k, which is 1, i, -1 or -i.
+            # The term of degree n = 4 * ``group`` + k is i^n H^n/n!. The factor i^n equals i^k.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term

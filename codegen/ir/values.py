@@ -44,8 +44,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # Some numbers are known only as intervals. If the interval does not decide whether a property holds, the
-    # property is False.
+    # Some numbers are known only as intervals. If the interval does not decide the question, ``is_zero`` and
+    # ``is_one`` are False.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -53,7 +53,7 @@ class Coefficient:
 
     @property
     def is_one(self) -> bool:
-        """True if this is provably the constant 1, without a power of h."""
+        """True if the coefficient is provably 1, without a power of h."""
         return self.power == 0 and self.value.is_one
 
     def text(self) -> str:
@@ -65,8 +65,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient as a scalar of ``domain``, for example as a double or a power series."""
         value = domain.number(self.value)
-        # The product ``value`` * h^``power`` is computed separately. Terms with equal coefficients can thus
-        # share the product.
+        # ``value`` and h are multiplied first. Terms with equal coefficients can share this product.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -34,7 +34,7 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
 }
 # In ``expmv5_1f``, 1f is a hexadecimal number. If bit k of this number is 0, entry k of the matrix is zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
-# The number after ``_d`` is the highest order of the derivatives. It is called the level of ``expm``.
+# In ``expm3_d1``, the number after ``_d`` is the level: the highest order of the derivatives in the result.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -52,7 +52,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # The other functions have no level.
+    # Only the matrix exponential has a level.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 
@@ -73,7 +73,7 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
-    # Only names of results of vector functions contain a dot. It separates the function from the index.
+    # A dot separates the function from the index. Names of other functions contain no dot.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))

@@ -47,11 +47,11 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # An output must have the kind of its input. The coefficients of a continuous extension (dense
-            # output) have no input, so they are skipped.
+            # An output is the new value of the input with the same name, so both must have the same kind. The
+            # coefficients of a continuous extension (dense output) correspond to no input.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The embedded solution approximates the new state y, so both must have the same kind.
+            # The embedded solution is another approximation of the new value of the input ``y``.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
                     f"{self.program.name}: the output {name} has the kind {var.kind}, but the corresponding "
@@ -59,8 +59,8 @@ class _Verifier:
                 )
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record that ``var`` is assigned by the statement ``at``. :class:`IllFormed` is raised if a variable
-        with this name is already assigned.
+        """Record that the statement ``at`` assigns ``var``. Raise :class:`IllFormed` if an assigned variable
+        has the same name.
         """
         # Two variables with the same name would have the same identifier in emitted code.
         if var.name in self.names:
@@ -87,18 +87,18 @@ class _Verifier:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
-        """Check one block of equations. Its body may read the unknowns of the block."""
-        # Each unknown of u = g(u) needs an initial guess (start) and a component of g(u) (image).
+        """Check the block u = g(u). The statements that compute g(u) may read the unknowns u."""
+        # Each unknown needs an initial value (start) and a component of g(u) (image).
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # A start (initial guess) must not be an unknown of the block. Therefore the starts are checked before
-        # the unknowns are defined.
+        # The initial values must be known before the block is solved. Therefore they are checked before the
+        # unknowns are defined.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
             self.assign(assign)
-        # The images and the residuals are checked after the body, because the body assigns them.
+        # The statements in ``block.body`` assign the images g(u) and the residuals.
         for image in block.images:
             self.use(image, f"the images of {block.label}")
         for residual in block.residuals:
@@ -114,10 +114,11 @@ def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(
-            f"{name}: {block.label} needs unknowns. Each unknown needs a start and an image of the same kind"
+            f"{name}: {block.label} needs unknowns. Each unknown needs an initial value (start) and a new "
+            "value (image) of the same kind"
         )
     if block.residuals and len(block.residuals) != len(block.unknowns):
-        raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
+        raise IllFormed(f"{name}: {block.label} needs one residual for each unknown, or no residuals")
 
 
 def _types(name: str, assign: Assign) -> None:
