@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in the step size h, for simplified Newton iterations.
 
-Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns of the
-implicit equations. Higher powers of h are never computed. The error of this approximate Jacobian is O(h^2).
-Therefore each iteration multiplies the error of the unknowns by O(h^2).
+An expression and its derivatives with respect to the unknowns are expanded as v_0 + v_1 h. Higher powers of h
+are never computed, so the error of the Jacobian is O(h^2). A Newton iteration with this Jacobian multiplies
+the error of the unknowns by O(h^2).
 """
 
 from __future__ import annotations
@@ -36,11 +36,10 @@ class NotLinearised(ArithmeticError):
 
 @dataclass(frozen=True)
 class _Dual:
-    """An expansion v_0 + v_1 h, and its derivatives with respect to the unknowns.
+    """The expansions of an expression and of its derivatives with respect to the unknowns.
 
-    ``value`` is (v_0, v_1). ``slopes`` maps the index of an unknown to the derivative with respect to this
-    unknown. This derivative is also an expansion v_0 + v_1 h. ``slopes`` contains no derivatives that are
-    zero.
+    ``value`` is the expansion of the expression. ``slopes`` maps the index of an unknown to the expansion of
+    the derivative with respect to this unknown. Derivatives that are zero are omitted.
     """
 
     value: Pair
@@ -50,7 +49,8 @@ class _Dual:
 class FirstOrder:
     """Computes derivatives of expressions with respect to the unknowns, to first order in the step size h.
 
-    ``unknowns`` are the names of the symbols of the unknowns. A shared subexpression is expanded only once.
+    ``unknowns`` are the names of the symbols of the unknowns. Each subexpression is expanded once, even if it
+    occurs several times.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -69,11 +69,11 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
-        # An empty list is a special case, because the space of the expressions is taken from the first root.
+        # The space of the expressions is taken from the first root. An empty list has no first root.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Nodes that an earlier call has expanded are not visited again.
+        # Subexpressions that an earlier call has expanded are not expanded again.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
@@ -140,7 +140,7 @@ def _combined(space: Space, terms: list[tuple[Expr, _Dual]]) -> _Dual:
         value = _plus(value, (c * x.value[0], c * x.value[1]))
         for k, slope in x.slopes.items():
             scaled = (c * slope[0], c * slope[1])
-            # If several terms depend on the unknown k, their derivatives are added.
+            # The derivatives of all terms with respect to the unknown k are added.
             slopes[k] = _plus(slopes[k], scaled) if k in slopes else scaled
     return _Dual(value, _trimmed(slopes))
 
@@ -168,8 +168,9 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
 
 
 def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
-    """Return the expansion of ``choose(test, a, b)``. It is the expansion of ``a`` if ``test`` is positive at
-    h = 0, and the expansion of ``b`` otherwise.
+    """Return the expansion of ``choose(test, a, b)``.
+
+    If ``test`` is positive at h = 0, this is the expansion of ``a``, otherwise the expansion of ``b``.
     """
     none = (space.zero, space.zero)
 
@@ -177,23 +178,22 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
-    # ``a.slopes`` and ``b.slopes`` contain only derivatives that are not zero. A missing derivative is
-    # therefore zero.
+    # A derivative that is missing in ``a.slopes`` or ``b.slopes`` is zero.
     places = sorted({*a.slopes, *b.slopes})
     slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
     return _Dual(pair(a.value, b.value), _trimmed(slopes))
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return the expansion of f(v_0 + v_1 h) for the function f called ``function``.
+    """Return the expansion of f(a), where f is the function with the name ``function``.
 
-    ``a`` is the expansion v_0 + v_1 h of the argument. In the code, ``low`` is v_0, ``high`` is v_1, and
-    ``at``, ``first`` and ``second`` are f(v_0), f'(v_0) and f''(v_0).
+    In the code, ``low`` + ``high`` h is the expansion of a. The variables ``at``, ``first`` and ``second``
+    are the values of f, f' and f'' at ``low``.
     """
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # The Stumpff function c_k is expanded only at 0. Its derivatives at 0 are known rational numbers.
+        # The Stumpff function c_k is expanded only at 0, where its derivatives are rational numbers.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # The three numbers are the coefficients of 1, z and z^2 in the series c_k(z) = 1/k! - z/(k+2)! +
@@ -228,8 +228,8 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
-    # To first order in h, f'(v_0 + v_1 h) is f'(v_0) + f''(v_0) v_1 h. By the chain rule, this factor
-    # multiplies the derivatives of the argument.
+    # By the chain rule, the derivatives of the argument are multiplied by f'(``low`` + ``high`` h). To first
+    # order in h, this factor is f'(``low``) + f''(``low``) ``high`` h.
     slope = (first, second * high)
     slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
     return _Dual((at, first * high), _trimmed(slopes))

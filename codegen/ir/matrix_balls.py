@@ -1,7 +1,7 @@
 """The exponential of a matrix with many digits, and its derivatives, computed with Arb balls.
 
-A ball is a midpoint with an error radius. Arb computes an enclosure of the exponential, so the radii of the
-result bound its error. If the radii are too large, the computation is repeated with a higher precision.
+A ball is a midpoint with an error radius. Arb returns balls that contain the entries of the exponential. If
+the radii of these balls are too large, the computation is repeated with a higher precision.
 
 A matrix and its derivatives form a jet (:mod:`codegen.ir.matrix_exponential`).
 """
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     import mpmath
 
 LARGEST_EXPONENT = 40
-"""If an entry of the matrix has an absolute value of 2^40 or more, :func:`exponential` raises an error."""
+"""The absolute value of each matrix entry must be below 2^``LARGEST_EXPONENT``. Otherwise
+:func:`exponential` raises OverflowError.
+"""
 
 MOST_BITS = 2**16
 """The largest working precision in bits."""
@@ -29,7 +31,7 @@ def ball(x: mpmath.mpf) -> arb:
     """Return a ball with radius zero around an mpmath number."""
     sign, mantissa, exponent, _ = x._mpf_
     if not mantissa:
-        # mpmath represents infinities and NaN by a zero mantissa and a non-zero exponent.
+        # In mpmath, the mantissa of zero, infinities and NaN is 0. Only zero has the exponent 0.
         return arb(0) if not exponent else arb(float(x))
     return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
 
@@ -46,22 +48,21 @@ def midpoint(x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
 
 
 def exponent_of(x: arb) -> int:
-    """Return the number e with 2^(e-1) <= abs(x) < 2^e for the midpoint x of a ball, or 0 for x = 0."""
+    """Return the number e with 2^(e-1) <= abs(y) < 2^e for the midpoint y of ``x``, or 0 for y = 0."""
     # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
     mantissa, exponent = x.mid().man_exp()
     return int(exponent) + int(mantissa).bit_length() if mantissa else 0
 
 
 def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb, ...]:
-    """Return the exponential of a jet, as balls with radius zero.
+    """Return the exponential of a jet. The entries of ``jet`` and the results are balls with radius zero.
 
-    ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives. These
-    entries are balls with radius zero.
+    ``jet`` contains the entries of an n x n matrix A, followed by the entries of its derivatives.
 
-    Let M be the largest absolute value of an entry of exp(A), and e the largest absolute value of an entry of
-    the derivatives of A. The error of each entry of exp(A) is at most 2^-``bits`` M. Let D be a derivative of
-    exp(A), and m the largest absolute value of an entry of D. The error of each entry of D is at most
-    2^-``bits`` times the maximum of m and M (e + e^2).
+    The bounds of the errors contain the largest absolute values of entries: M for exp(A), e for all
+    derivatives of A, and m for a derivative D of exp(A). The error of an entry is at most:
+    - 2^-``bits`` M in exp(A),
+    - 2^-``bits`` max(m, M (e + e^2)) in D.
 
     OverflowError is raised in three cases:
     - An entry of ``jet`` is not finite.
@@ -85,7 +86,7 @@ def exponential(n: int, level: int, bits: int, jet: Sequence[arb]) -> tuple[arb,
 
 
 def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]) -> bool:
-    """Return True if the radii of ``result`` satisfy the bounds of :func:`exponential`."""
+    """Return True if the radii in ``result`` are within the error bounds of :func:`exponential`."""
     if not all(x.is_finite() for x in result):
         return False
     unit, largest = arb((1, -bits)), _largest(result[:size])
@@ -93,7 +94,7 @@ def _is_accurate(size: int, bits: int, jet: Sequence[arb], result: Sequence[arb]
     for start in range(0, len(result), size):
         matrix = result[start : start + size]
         scale = max(_largest(matrix), largest * (derivative + derivative**2)) if start else largest
-        # The comparison of two numbers with radius zero is exact.
+        # Both sides are balls with radius zero, so the comparison is exact.
         if any(x.rad() > (unit * scale).mid() for x in matrix):
             return False
     return True
@@ -107,9 +108,10 @@ def _largest(balls: Iterable[arb]) -> arb:
 def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
 
-    ``numbers`` are the entries of the jet. At level 0 they are the entries of an n x n matrix A. At level 1
-    they are the entries of A and of its derivative E, and the block rows are (A, E) and (0, A). The first
-    block row of the exponential contains exp(A) and its derivative.
+    ``numbers`` are the entries of the jet. A jet of level 0 is represented by its n x n matrix A. A jet of
+    level 1 also contains a derivative E of A, and the block rows are (A, E) and (0, A). At level l, A and E
+    are block matrices of level l - 1. The exponential of the block matrix represents the exponential of the
+    jet.
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
@@ -121,10 +123,7 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of a jet from the rows of its block matrix.
-
-    This is the inverse function of :func:`block_matrix`.
-    """
+    """Return the entries of the jet that is represented by a block matrix (:func:`block_matrix`)."""
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2

@@ -1,15 +1,17 @@
 """The exponential of an n x n matrix, and the derivatives of the exponential. The matrix entries are doubles,
 numbers with many digits, or power series.
 
-Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
-exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l contains l symbols
-d_0, ..., d_(l-1) with squares zero. It is the sum of the terms A_m e_m for m = 0, ..., 2^l - 1, where A_m is
-a matrix and e_m is a product of symbols. The symbol d_k is a factor of e_m if bit k of the number m is 1. The
-matrices A_0, A_1, ... are stored in this order, and each matrix is stored row by row.
+Derivatives are computed with jets. A jet of level 1 is a sum A + d E, where A and E are matrices and d is a
+symbol with d^2 = 0. The exponential of this jet is exp(A) + d L. Here L is the derivative of exp at A in the
+direction E.
+
+A jet of level l contains l symbols d_0, ..., d_(l-1) with d_k^2 = 0. The jet is the sum of the terms A_m e_m
+for m = 0, ..., 2^l - 1. Here A_m is a matrix, and e_m is the product of the symbols d_k for which bit k of m
+is 1. The matrices are stored in the order A_0, A_1, ..., and each matrix is stored row by row.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
-The matrix is divided by 2^s, so that its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
-evaluated by the method of Paterson and Stockmeyer, and the result is squared s times. Emitted code executes
+A division by 2^s makes the norm of the matrix small. A Taylor polynomial of degree 4, 8, 12 or 16 is
+evaluated by the method of Paterson and Stockmeyer, and its value is squared s times. Emitted code executes
 the same operations in the same order (:mod:`codegen.run.matrix_functions`).
 """
 
@@ -32,8 +34,8 @@ products of matrices.
 """
 
 LEAST_DIGITS = 10
-"""The smallest accepted number of correct binary digits of the exponential. Ten binary digits are about three
-decimal digits. If the bound of the relative error exceeds 2^-``LEAST_DIGITS``, all results are NaN.
+"""If the bound of the relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN. Ten
+binary digits are about three decimal digits.
 """
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
@@ -57,10 +59,10 @@ def pairs(level: int) -> Pairs:
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return the largest norm of a matrix for the Taylor polynomial of each degree m of :data:`DEGREES`.
+    """Return the largest matrix norms for which the Taylor polynomials of :data:`DEGREES` are used.
 
-    The largest norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For smaller norms, the error of the
-    polynomial is below a quarter of the unit roundoff 2^-``bits``.
+    The largest norm for degree m is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For smaller norms, the
+    error of the polynomial is below a quarter of the unit roundoff 2^-``bits``.
 
     >>> largest_norms(53)
     (0.000161, 0.0321, 0.221, 0.628)
@@ -77,7 +79,7 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
-    # The norm of the first matrix determines the scale. The derivatives are multiplied by the same scale.
+    # The norm of the first matrix determines ``scale``, and all matrices are multiplied by ``scale``.
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
@@ -93,8 +95,8 @@ def _halvings(norm: float) -> tuple[float, int, float]:
     ``norm`` is the norm of the matrix before scaling.
     """
     scale, squarings = 1.0, 0
-    # Each squaring about doubles the relative error, which is at least 2^-53. Therefore no binary digit is
-    # correct after 53 squarings.
+    # More than 53 squarings are useless. The relative error is at least 2^-53, and each squaring about
+    # doubles it.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -157,12 +159,11 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # The terms of low degree are the largest. They are added last, so the rounding errors are small.
+        # To reduce rounding errors, the largest terms are added last. These are the terms of low degree.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
-            # c_k times the unit matrix is added. It changes only the diagonal of the first matrix, because
-            # the derivatives of the unit matrix are zero.
+            # The constant term c[k] times the unit matrix changes only the diagonal of the first matrix.
             total[(n + 1) * i] += c[k]
     return total
 
@@ -170,11 +171,11 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
     """Return a bound of the spectral norm of exp(``scale`` * ``a``), where ``a`` is an n x n matrix.
 
-    Gershgorin's circles give a bound of the largest eigenvalue of the symmetric part of ``a`` (the
-    logarithmic norm). The result is the exponential of ``scale`` times this bound. For a skew-symmetric
-    matrix the result is 1.
+    The logarithmic norm of ``a`` is the largest eigenvalue of its symmetric part. Gershgorin's circles give
+    an upper bound of this eigenvalue. The result is the exponential of ``scale`` times this upper bound. For
+    a skew-symmetric matrix the result is 1.
     """
-    # The bound of the largest eigenvalue may be negative, so the diagonal entries keep their signs.
+    # The largest eigenvalue can be negative, so no absolute values of the diagonal entries are taken.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -182,7 +183,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
             if j != i:
                 total += 0.5 * abs(a[n * i + j] + a[n * j + i])
         largest = max(largest, total)
-    # The exponential of ``largest * scale`` is computed as a Taylor polynomial by Horner's rule.
+    # As in emitted code, the exponential of ``largest * scale`` is computed by a Taylor polynomial.
     *rest, result = (1 / math.factorial(k) for k in range(DEGREES[-1] + 1))
     for c in reversed(rest):
         result = c + (largest * scale) * result
@@ -193,17 +194,16 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     """Return the jet that results from ``squarings`` squarings of the jet ``total``.
 
     ``growth`` is a bound of the spectral norm of the first matrix of ``total``. If the error bound of the
-    squared first matrix is too large (:data:`LEAST_DIGITS`), all entries of the result are NaN.
+    first matrix of the result is too large (:data:`LEAST_DIGITS`), all entries of the result are NaN.
 
-    Let E be an n x n matrix with the spectral norm |E| and the error e, and let u be the unit roundoff. The
-    error of the computed square of E is at most about 2 |E| e + n^2 u |E|^2.
+    Let E be a computed n x n matrix with the spectral norm |E|, and let e be a bound of its error. The error
+    of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` is a bound of the error of the first matrix of ``total``. Here it is the error before the
-    # squarings.
+    # ``error`` is a bound of the error of the first matrix of ``total``, here before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # ``growth`` and the Frobenius norm are bounds of the spectral norm. The smaller bound is used.
+        # Both ``growth`` and the Frobenius norm of the first matrix are bounds of its spectral norm.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # The norm of the squared matrix is at most the square of ``growth``.
@@ -228,9 +228,8 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exact exponential of the jet ``a``, a matrix of power series with its derivatives.
 
-    The result is exact, because the exponential is a finite sum. The sum is finite if the constant terms of
-    the first matrix of the jet form a nilpotent matrix. If the sum has more than ``longest`` terms,
-    ArithmeticError is raised.
+    If the constant terms of the first matrix of the jet form a nilpotent matrix, the exponential is a finite
+    sum. If the sum has more than ``longest`` terms, ArithmeticError is raised.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
@@ -241,4 +240,4 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
         if all(ring.is_zero(x) is True for x in term):
             return tuple(total)
         total = [x + y for x, y in zip(total, term, strict=True)]
-    raise ArithmeticError(f"the series of a matrix exponential does not end within {longest} terms")
+    raise ArithmeticError(f"the series of a matrix exponential has more than {longest} terms")

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The largest number of non-zero terms of an exponential that is computed by scalar formulas.
+"""If the sum 1 + A + A^2/2 + ... has at most this number of terms, exp(A) is computed by scalar formulas.
 
-The sum exp(A) = 1 + A + A^2/2 + ... is finite if a power of the matrix A is zero.
+The sum has finitely many terms if a power of the matrix A is zero.
 """
 
 
@@ -46,15 +46,15 @@ class MatrixExponential(VectorFunction):
     @property
     def operations(self) -> dict[str, int]:
         """Approximate numbers of additions and multiplications in one call. Squarings are not counted."""
-        # The Taylor polynomial is assumed to have degree 12, so it requires five products of jets. A product
-        # of two jets consists of 3^``level`` products of matrices.
+        # The numbers are for a Taylor polynomial of degree 12, which requires five products of jets.
+        # A product of two jets consists of 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivatives of the results. ``rates`` are the derivatives of the arguments ``args``.
 
-        The derivatives of the results are the second half of the exponential with ``level`` + 1.
+        The exponential with ``level`` + 1 computes the results, followed by their derivatives.
         """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -67,15 +67,14 @@ class MatrixExponential(VectorFunction):
 
         A is the jet ``args`` (a matrix with its derivatives). The zeros in A determine the number of terms.
         """
-        # ``pattern`` contains 0 for each entry of A that is always zero, and 1 for each other entry. If entry
-        # (i, j) of the k-th power of ``pattern`` is zero, entry (i, j) of A^k is also zero. The entries of
-        # ``pattern`` are not negative, so terms cannot cancel.
+        # ``pattern`` contains 0 for each entry of A that is always zero, and 1 for each other entry. If an
+        # entry of the k-th power of ``pattern`` is zero, the same entry of A^k is always zero.
         pattern = power = [int(not x.is_zero) for x in args]
-        # If the first matrix of the jet is nilpotent, the sum is finite for all derivatives in the jet. The
-        # reason is that a product with more than ``level`` derivatives as factors is zero.
+        # If a power of the first matrix is zero, a power of the jet is zero. The reason is that a product of
+        # more than ``level`` terms with a symbol d_k is zero (:mod:`codegen.ir.matrix_exponential`).
         if not is_nilpotent(self.n, pattern):
             return None
-        # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that must be zero.
+        # ``count`` is the number of terms 1, A, A^2/2, ... before the first term that is always zero.
         count = 1
         while any(power):
             count += 1
@@ -94,11 +93,11 @@ class MatrixExponential(VectorFunction):
         return tuple(total)
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the exponential in doubles, computed by the same operations as in emitted code."""
+        """Return the exponential of ``args`` in doubles, by the same operations as in emitted code."""
         return matrix_exponential.in_doubles(self.n, self.level, args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential in mpmath numbers with about ``digits`` correct digits."""
+        """Return the exponential of ``args`` in mpmath numbers with about ``digits`` correct digits."""
         return matrix_exponential.in_digits(context, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -107,11 +106,11 @@ class MatrixExponential(VectorFunction):
         ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
         nilpotent.
         """
-        # Let C be the matrix of the constant terms of A. It is nilpotent, so C^n = 0. Each other term of the
-        # jet contains h or one of the ``level`` symbols d_k (:mod:`codegen.ir.matrix_exponential`).
-        # Let a product of terms be non-zero. At most ``ring.order`` factors contain h. At most ``level``
-        # factors contain a d_k, because d_k^2 = 0. Fewer than n successive factors are C. The number of
-        # factors is therefore less than ``longest``.
+        # A power of the jet is a sum of products of its terms. One term is the matrix C of the constant
+        # terms of A, with C^n = 0. Each other term contains h or one of the ``level`` symbols d_k
+        # (:mod:`codegen.ir.matrix_exponential`). In a non-zero product, at most ``ring.order`` factors
+        # contain h, at most ``level`` factors contain a d_k, and fewer than n successive factors are C. The
+        # number of factors is therefore less than ``longest``.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -148,7 +147,7 @@ class MatrixInverse(VectorFunction):
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None: emitted code always calls the function for the inverse."""
+        """Return None, because emitted code computes the inverse by a call of this function."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
@@ -166,8 +165,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
-            # A power series has an inverse only if its constant term is not zero. In this case its valuation
-            # (the lowest exponent of h) is 0. A pivot needs an inverse.
+            # A pivot must have an inverse. A power series has an inverse if its constant term is not zero,
+            # that is, if its valuation (the lowest exponent of h) is 0.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -179,20 +178,20 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if the zeros in ``pattern`` make every n x n matrix nilpotent.
+    """Return True if every n x n matrix with the zeros of ``pattern`` is nilpotent.
 
-    A matrix is zero wherever ``pattern`` is zero, and its other entries are arbitrary. The criterion uses a
-    graph with the vertices 0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j.
-    The function returns True if this graph has no cycle.
+    The matrix entries at the other positions are arbitrary. The criterion uses a graph with the vertices
+    0, ..., n - 1. Each non-zero entry (i, j) of ``pattern`` is an edge from i to j. The function returns True
+    if this graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
     """
-    # ``left`` contains the vertices that are not yet removed. All vertices of a cycle are in ``left``.
+    # Each pass of the loop removes vertices that are in no cycle from ``left``.
     left = set(range(n))
     while left:
-        # ``ends`` contains the vertices without an edge to a vertex in ``left``. They are in no cycle and are
-        # removed. If ``ends`` is empty, a path in ``left`` never ends, so the graph has a cycle.
+        # A vertex without an edge to a vertex in ``left`` is in no cycle. If no such vertex exists, every
+        # path in ``left`` can be continued, so the graph has a cycle.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

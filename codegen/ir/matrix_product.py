@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class BilinearFunction(VectorFunction):
     """A bilinear function f(a, b) of two n x n matrices, whose result is an n x n matrix.
 
-    The computation needs only additions and multiplications, so the same code is used for doubles, mpmath
-    numbers and power series.
+    The result is computed by additions, subtractions and multiplications of doubles, mpmath numbers or power
+    series.
     """
 
     @property
@@ -45,10 +45,10 @@ class BilinearFunction(VectorFunction):
         """
         space, size = args[0].space, self.size
         total = (space.zero,) * size
-        # The first pass computes f(a', b), and the second pass computes f(a, b').
+        # The loop adds f(a', b) and f(a, b').
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # If the derivative a' or b' is zero, its pass adds nothing.
+            # If a' is zero, f(a', b) is omitted. If b' is zero, f(a, b') is omitted.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -67,8 +67,8 @@ class BilinearFunction(VectorFunction):
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of E are zero, so the formulas for the entries are short. They are used in place of a
-        # call of the function f.
+        # Most entries of E are zero. Therefore scalar formulas for the result are short, and no call of f is
+        # needed.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -78,15 +78,15 @@ class BilinearFunction(VectorFunction):
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the entries of f(a, b) in doubles."""
+        """Return the entries of f(a, b) for matrices of doubles."""
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b) in mpmath numbers."""
+        """Return the entries of f(a, b) for matrices of mpmath numbers."""
         return self.arithmetic(args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the entries of f(a, b) as power series."""
+        """Return the entries of f(a, b) for matrices of power series."""
         return self.arithmetic(args)
 
 
