@@ -1,12 +1,13 @@
 """Functions that select one of several formulas by a comparison.
 
-- ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. If x is NaN, the value is NaN. Every
-  condition in a formula becomes a call of this function.
+- ``choose(x, a, b)`` is ``a`` for x > 0, and ``b`` for x <= 0. If x is a NaN, the value is a NaN. Conditions
+  in formulas are translated to calls of this function.
 - ``fabs(x)`` is the absolute value of x.
 - A :class:`codegen.ir.table.PiecewisePolynomial` at x selects the polynomial of the interval that contains x.
 
-The selected formula changes at certain values of x, for example at x = 0 in ``choose``. If x is a power
-series in h, and its constant term is one of these values, :class:`Kink` is raised.
+The selected formula changes at certain values of x, for example at x = 0 in ``choose``. The argument x may be
+a power series in the step size. If the formula changes at the constant term of this series, :class:`Kink` is
+raised.
 """
 
 from __future__ import annotations
@@ -21,11 +22,11 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The names of the selecting functions, except piecewise polynomials."""
+"""The names of the functions that select a formula, without the piecewise polynomials."""
 
 
 class Kink(ArithmeticError):
-    """Raised if the argument is a power series, and the selected formula changes at its constant term."""
+    """Raised if x is a power series, and the selected formula changes at the constant term of x."""
 
 
 def selects(function: str) -> bool:
@@ -34,11 +35,10 @@ def selects(function: str) -> bool:
 
 
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
-    """Return the value of ``choose``, ``fabs`` or a piecewise polynomial at ``args``, which are scalars of
-    ``domain``.
+    """Return the value of ``function``, which is ``choose``, ``fabs`` or a piecewise polynomial.
 
-    ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If the sign of the first argument is
-    None, the result is the first argument.
+    The arguments ``args`` are scalars of ``domain``. ``sign`` returns the sign of a scalar: -1, 0, 1, or None
+    for a NaN. If the sign of the first argument is None, the result is the first argument.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -54,7 +54,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
 def sign_of_number(x: Scalar) -> int | None:
     """Return the sign of a real number, or None for a NaN or a complex number."""
     try:
-        # All comparisons with a NaN are false, so a NaN gives None.
+        # For a NaN the result is None, because all comparisons are false.
         return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
     except TypeError:  # Complex numbers, such as mpmath roots of negative numbers, have no order.
         return None

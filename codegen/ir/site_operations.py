@@ -1,8 +1,7 @@
 """Operations on sums over all sites of a lattice.
 
-Inner products and energies of a lattice are sums over its sites. The term of each site is computed
-separately, and :class:`Total` adds the terms of all sites. A system without a lattice is treated as a single
-site.
+Inner products and energies of a lattice are sums over its sites. One operation computes the term of each
+site, and :class:`Total` adds the terms of all sites. A system without a lattice is treated as a single site.
 """
 
 from __future__ import annotations
@@ -23,15 +22,15 @@ class Total(Operation):
     noun = "sum{s} over all sites"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the argument, because the sum over a single site has only one term."""
+        """Return ``args``, because the sum over a single site has only one term."""
         return args
 
 
 @dataclass(frozen=True)
 class InnerProduct(Operation):
-    """The inner product of the coordinates of two vectors at one site.
+    """The inner product of two coordinate vectors at one site.
 
-    ``first`` and ``second`` are the kinds of the vectors. Each vector is in the Lie algebra or its dual.
+    ``first`` and ``second`` are the kinds of the two vectors: elements of the Lie algebra or of its dual.
     """
 
     first: Kind
@@ -44,7 +43,7 @@ class InnerProduct(Operation):
         return (self.first, self.second), R
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the inner product."""
+        """Return the inner product of the two vectors in ``args``."""
         total = domain.rational(0)
         for a, b in zip(*args, strict=True):
             total = total + a * b
@@ -55,8 +54,8 @@ class InnerProduct(Operation):
 class Excess(Operation):
     """The number H1 - H0 - p for the arguments p, H0 and H1.
 
-    H0 and H1 are energies at two points. The number p is the pairing of a gradient with the displacement
-    between the points, so p approximates H1 - H0. The result is the error of this approximation.
+    H0 and H1 are the energies before and after a displacement. The number p = <g, x> approximates H1 - H0,
+    where g is an approximate gradient of the energy, and x is the displacement.
     """
 
     name = "excess"
@@ -78,7 +77,7 @@ class Corrected(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return g + (r/s) x, where ``args`` is (g, x, r, s). For s = 0, return g."""
         g, x, r, s = args
-        # ``quotient`` is 0 for s = 0, so the case s = 0 needs no branch.
+        # For s = 0, the function ``quotient`` returns 0.
         factor = domain.call("quotient", r, s)
         return (tuple(a + factor * b for a, b in zip(g, x, strict=True)),)
 
@@ -87,7 +86,8 @@ class Corrected(Operation):
 class Wedge(Operation):
     """The vector (p f - q gamma)/s for a covector gamma, a vector f and numbers p, q and s.
 
-    The result is the value of a bivector (:mod:`codegen.kernel.site_sums`). For s = 0 it is zero.
+    For s = 0 the result is zero. If p = <gamma, alpha>, q = <f, alpha> and s = |gamma|^2, the bivector
+    (gamma wedge f)/s is applied to the covector alpha (:mod:`codegen.kernel.site_sums`).
     """
 
     name = "wedge"
@@ -96,6 +96,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s, where ``args`` is (gamma, f, p, q, s). For s = 0, return zero."""
         gamma, f, p, q, s = args
-        # The quotients p/s and q/s are the same for all components, so they are computed only once.
+        # The quotients p/s and q/s do not depend on the component.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

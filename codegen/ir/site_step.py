@@ -1,7 +1,8 @@
-"""A step of a lattice system as a sequence of sweeps over all sites. Arrays store values between the sweeps.
+"""A step of a lattice system as a sequence of sweeps over all sites.
 
-A sweep is a loop that computes the same formulas at each site. The formulas read numbers that belong to the
-site and to its neighbours. The number of sites is known only at run time.
+A sweep is a loop that computes the same formulas at each site. The formulas read numbers of the site and of
+its neighbours. Arrays store the results of a sweep for later sweeps. The number of sites is an argument of
+the emitted code.
 """
 
 from __future__ import annotations
@@ -37,9 +38,10 @@ BYTES = 8
 
 @dataclass(frozen=True)
 class Row:
-    """A row of an array, with one number for each site.
+    """A row of an array. The row contains one number for each site.
 
-    ``array`` is the name of the array, and ``number`` is the index of the row.
+    ``array`` is the name of the array: :data:`STATE`, :data:`WORK`, :data:`RESULT` or :data:`EXISTS`. The
+    index of the row is ``number``.
     """
 
     array: str
@@ -48,10 +50,11 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """A number that a sweep reads from ``row`` at each site. ``symbol`` denotes the number in the formulas.
+    """A number that a sweep reads at each site. ``symbol`` denotes the number in the formulas.
 
-    If ``neighbour`` is :data:`OWN`, the number belongs to the site itself. Otherwise it belongs to a
-    neighbour, and ``neighbour`` is the index of this neighbour in :attr:`SiteStep.offsets`.
+    A row contains one number for each site. If ``neighbour`` is :data:`OWN`, the sweep reads the number of
+    the site itself from ``row``. For other values, the sweep reads the number of a neighbour, and
+    ``neighbour`` is the index of this neighbour in :attr:`SiteStep.offsets`.
     """
 
     symbol: str
@@ -61,21 +64,23 @@ class Load:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One loop over all sites. The formulas are in ``kernel``, and its output k is stored in ``stores[k]``.
+    """One loop over all sites. ``kernel`` contains the formulas. Output k of ``kernel`` is stored in the row
+    ``stores[k]``.
 
     - ``about`` is a text that lists the operations of the sweep.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. Output k replaces the number of load k
-      in :attr:`read_outside` if the neighbour does not exist.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. If the neighbour of load
+      ``read_outside[k]`` does not exist, output k of ``outside`` is used in place of the load.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. In a sweep over
       single sites, ``axis`` is :data:`OWN`. The second site of a pair is neighbour 0 of the first site. The
       second half of ``stores`` contains the rows for the second site.
-    - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
-      g(u), which replace the unknowns.
-    - ``measured`` is empty, or contains two rows for the stopping test. For each site, the first row contains
-      the largest change of the unknowns. The second row contains the largest absolute value of the unknowns.
+    - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
+      values g(u). Fixed-point iteration stores g(u), and Newton's method stores g(u) - u.
+    - ``measured`` is empty, or contains two rows for the stopping test of fixed-point iteration. For each
+      site, the first row contains the largest change of an unknown. The second row contains the largest
+      absolute value of an unknown.
     - ``sums`` contains a pair (name, row) for each sum over all sites. The row contains the terms of the sum.
-      The sweeps after this sweep can read the sum.
+      Later sweeps can read the sum.
     """
 
     about: str
@@ -91,7 +96,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
-        # ``OWN`` denotes the site itself, which is not a neighbour.
+        # A site is not its own neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -115,11 +120,13 @@ class Sweep:
 class SiteNewton:
     """The matrix of Newton's method for implicit equations u = g(u) on a chain of sites.
 
-    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. For each
-    site, ``kernel`` computes three blocks of ``size`` rows and columns: the derivatives with respect to the
-    unknowns of the left neighbour, of the site, and of the right neighbour. Hence the matrix of an open chain
-    is block-tridiagonal. ``loads`` are the numbers that the kernel reads. The symbol with the name
-    ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
+    The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. Each site
+    has ``size`` unknowns. For each site, ``kernel`` computes three square blocks: the derivatives with
+    respect to the unknowns of the left neighbour, of the site, and of the right neighbour. Hence the matrix
+    of an open chain is block-tridiagonal.
+
+    ``loads`` are the numbers that ``kernel`` reads. In an open chain, the symbol with the name ``exists[k]``
+    is 1 if neighbour k exists, and 0 otherwise. In a periodic chain, ``exists`` is empty.
 
     ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
 
@@ -138,18 +145,18 @@ class SiteNewton:
     matrix: int
 
     def moved_once(self, periodic: bool) -> tuple[int, int]:
-        """Return the memory traffic for the computation and factorisation of the matrix.
+        """Return the memory traffic for the computation and factorisation of Newton's matrix.
 
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # For each site, ``kernel`` writes three matrix blocks with n^2 numbers each. The factorisation reads
-        # the blocks and overwrites them with the factors.
+        # For each site, ``kernel`` writes 3 n^2 matrix entries. The factorisation reads these entries and
+        # overwrites them with the factors.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
-        # In a periodic chain the last site is a neighbour of the first site. Hence the matrix of the chain
-        # is not block-tridiagonal.
+        # The matrix of a periodic chain is not block-tridiagonal, because the last site is a neighbour of the
+        # first site.
         if periodic:
-            # The right-hand sides are the n columns of the matrix for the unknowns of the last site.
+            # Linear equations are solved with each of the n columns of the border as right-hand side.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -160,9 +167,9 @@ class SiteNewton:
         The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # The linear equations are solved with the residuals as the right-hand side.
+        # The linear equations of Newton's method have the residuals as right-hand side.
         read, written = self._substituted()
-        # The correction reads the unknowns and their changes, and writes the unknowns.
+        # The solution of these linear equations is added to the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -179,14 +186,14 @@ class SiteNewton:
 
 @dataclass(frozen=True)
 class SiteBlock:
-    """Implicit equations u = g(u) for unknowns u at all sites, which are solved by iteration.
+    """Implicit equations u = g(u) for the unknowns u of all sites. They are solved by iteration.
 
-    In each iteration, the sweeps with the indices ``first`` to ``last`` compute the values g(u), which
-    replace the unknowns. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's
-    method corrects the unknowns. The iteration ends when the unknowns of all sites have converged.
+    In each iteration, the sweeps with the indices ``first`` to ``last`` compute g(u). If ``newton`` is None,
+    g(u) replaces u. If ``newton`` is given, the sweeps store the residuals g(u) - u, and Newton's method
+    corrects u. The iteration ends when the unknowns of all sites have converged.
 
-    Before the first iteration, earlier sweeps store the initial guess for the unknowns. ``label`` is the name
-    of the equations in messages.
+    The sweeps before ``first`` store the initial guess for u. ``label`` is the name of the equations in
+    messages.
     """
 
     label: str
@@ -203,7 +210,8 @@ class SiteFlow:
     - ``sweep`` is the index of the sweep that computes the flow.
     - ``duration`` is the duration of the flow, divided by h.
     - A flow that depends on time is evaluated at the time t + ``elapsed`` * h.
-    - ``colour`` is the parity (0 or 1) of the first site of each pair in a sweep over pairs of sites.
+    - In a sweep over pairs of sites, ``colour`` is 0 if the first site of each pair has an even index, and 1
+      if this index is odd. In a sweep over single sites, ``colour`` is 0.
     """
 
     sweep: int
@@ -216,12 +224,12 @@ class SiteFlow:
 class SiteStep:
     """One step of a lattice.
 
-    - ``dimension`` is the dimension of the lattice, and ``offsets`` are the offsets of the neighbours of a
-      site.
+    - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
+      a site.
     - ``periodic`` is true if the lattice has periodic boundary conditions.
-    - ``sweeps`` are the loops over all sites. If ``flows`` is empty, they are in the order of execution. They
-      use ``rows`` rows of the workspace.
+    - ``sweeps`` are the loops over all sites. If ``flows`` is empty, ``sweeps`` has the order of execution.
     - ``size`` is the number of rows of the state.
+    - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. For other methods,
       ``flows`` is empty. Each flow is computed by the sweep with the index :attr:`SiteFlow.sweep`. The first
       flow reads the old state, and all other flows change the new state in place.
@@ -239,15 +247,14 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace, including ``size`` rows for a state."""
+        """The number of rows of the workspace, including ``size`` rows for a second state."""
+        # A step must not overwrite the old state, so the emitted code uses two states.
         return self.rows + self.size
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step in the order of execution. If several flows use the same sweep, the sweep is
-        listed once for each of these flows.
-        """
-        # If there are no flows, each sweep occurs once.
+        """The sweeps of a step in the order of execution. A sweep of several flows occurs several times."""
+        # A step without flows executes each sweep once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     @property
@@ -256,7 +263,7 @@ class SiteStep:
         return tuple(name for sweep in self.sweeps for name, _ in sweep.sums)
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield every expression of the step."""
+        """Yield the expressions in the kernels of the step."""
         for sweep in self.sweeps:
             for kernel in sweep.kernels:
                 yield from kernel.expressions()
@@ -266,8 +273,7 @@ class SiteStep:
 
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
-        """The sweeps outside of the iterations for implicit equations, in the order of execution."""
-        # ``repeated`` contains the indices of the sweeps that are executed in each iteration.
+        """The sweeps that do not belong to an iteration for implicit equations, in the order of execution."""
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
             return self.passes
@@ -279,11 +285,11 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The memory traffic of a step without the iterations for implicit equations.
+        """The memory traffic of a step, without the iterations for implicit equations.
 
-        It is the pair (numbers read, numbers written) for each site.
+        The result is the pair (numbers read, numbers written) for each site.
         """
-        # The matrices of Newton's method are computed once in each step, before the iterations.
+        # Newton's matrices are computed before the iterations, once in each step.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
@@ -293,15 +299,13 @@ class SiteStep:
         The result is the pair (numbers read, numbers written) for each site.
         """
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
-        # Without Newton's method, only the sweeps cause memory traffic.
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
         """Return how many numbers a step reads and writes in memory for each site.
 
-        ``sweeps`` contains the number of iterations for each block of implicit equations.
+        ``sweeps[k]`` is the number of iterations for the equations of ``blocks[k]``.
         """
-        # ``n`` is the number of iterations for the block ``b``.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)
 
@@ -316,9 +320,8 @@ class SiteStep:
                 names = ", ".join(name for name, _ in sweep.sums)
                 lines.append(f"  computes the sums over all sites: {names}")
         for block in self.blocks:
-            # In the text, the loops are numbered from 1.
+            # The lines number the loops from 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
-            # If the block consists of a single loop, the sentence is in the singular.
             if block.first == block.last:
                 loops = f"loop {block.last + 1} is"
             names = ", ".join(block.unknowns)
@@ -329,7 +332,7 @@ class SiteStep:
                     f"  Newton's method: the matrix has three blocks of {n} x {n} numbers for each site"
                 )
         if self.flows:
-            lines.append(f"a step executes {len(self.flows)} loops, counted with repetitions")
+            lines.append(f"a step executes {len(self.flows)} loops, including repetitions")
         lines.append(
             f"workspace: {self.workspace} numbers ({BYTES * self.workspace} bytes) for each site, "
             "plus padding"
@@ -343,22 +346,22 @@ class SiteStep:
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return the memory traffic of the sweeps: the pair (numbers read, numbers written) for each site.
 
-    If a sweep reads a number several times, the number is counted once, because it remains in the cache.
+    If a sweep reads a number several times, the number counts once, because it remains in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, further loops read the rows ``measured`` for the stopping test, and one row for each sum.
+    # After a sweep, the stopping test reads the rows ``measured``. Each sum over all sites reads one row.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 
 def _stored(sweep: Sweep) -> int:
     """Return the number of rows to which a sweep writes."""
-    # A set is used, because a row in ``stores`` may also be in ``measured``.
+    # The set counts a row only once, even if the row is in ``stores`` and in ``measured``.
     return len({*sweep.stores, *sweep.measured})
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    # Each pair is (numbers read, numbers written).
+    # A pair consists of the numbers read and the numbers written.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

@@ -1,9 +1,10 @@
-"""Selections in the formulas of a vector field. They can make the field non-smooth.
+"""Selections in the formulas of a vector field.
 
-A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). It
-selects one of several formulas. The *side* of a selection is the index of the selected formula. For
-``choose`` and ``fabs`` the side is 1 if the first argument is positive, and 0 otherwise. For a piecewise
-polynomial the side is the index of the interval that contains the argument.
+A selection is a call of a function that selects one of several formulas: ``choose``, ``fabs`` or a piecewise
+polynomial (:mod:`codegen.ir.selection`). A field with selections may be non-smooth. The *side* of a selection
+is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the first argument is
+positive, and 0 otherwise. For a piecewise polynomial the side is the index of the interval that contains the
+argument.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The index of the selected formula for each selection, in the order of :func:`selections`."""
+"""The sides of the selections, in the order of :func:`selections`. A side is the index of a formula."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return all selections in the expressions ``roots``.
 
-    The selections in the arguments of a selection precede it.
+    If an argument of a selection contains another selection, the inner selection comes first.
     """
-    # ``walk`` yields the arguments of a node before the node.
+    # ``walk`` yields the arguments of a node before the node itself.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
@@ -34,8 +35,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     """Replace each selection in ``roots`` by one of its formulas.
 
     ``nodes`` are the selections. ``sides[k]`` is the index of the formula that replaces ``nodes[k]``. The
-    result is a pair of lists: the new expressions, and expressions called margins. Where all margins are
-    positive, the new expressions have the same values as ``roots``.
+    result is a pair of lists: the new expressions and the margins. A margin is an expression. If all margins
+    are positive, the new expressions have the same values as ``roots``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -45,13 +46,12 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # In ``args`` all selections are already replaced by formulas. Hence the formula and the margins
-            # of this node contain no selections.
+            # ``args`` contains no selections. Hence ``value`` and ``more`` contain no selections.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # A copy of the node gets symbols as arguments. ``evaluate`` replaces these symbols by ``args``
-            # and simplifies the result.
+            # ``evaluate`` simplifies the node with the new arguments. It can only replace symbols, so the
+            # copy of the node has symbols as arguments.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -62,10 +62,9 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula of a selection with the index ``side``, and a list of margins.
+    """Return formula ``side`` of the selection ``function(*args)``, and a list of margins.
 
-    ``args`` are the arguments of the selection. Margins are expressions. If all margins are positive, the
-    selection selects this formula.
+    A margin is an expression. If all margins are positive, the selection selects this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -79,16 +78,16 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # Each tuple contains the formula for x <= 0, then the formula for x > 0. ``choose(x, a, b)`` equals ``a``
-    # for x > 0, so its tuple is (b, a).
+    # A tuple contains the formulas for x <= 0 and for x > 0. ``choose(x, a, b)`` is ``a`` for x > 0, so its
+    # tuple is (b, a).
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
 
 def features(roots: Sequence[Expr]) -> str:
-    """Return a text that lists the selections and the jumps of angles in the expressions ``roots``.
+    """Return a text that lists the selections and the calls of ``atan2`` in the expressions ``roots``.
 
-    The text is empty if there are none.
+    The value of ``atan2`` jumps from pi to -pi. If nothing is found, the text is empty.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space()
@@ -117,15 +116,16 @@ SHOWN = 3
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of the first argument of a selection, without a minus sign. The sign does not matter,
-    because x and -x are zero at the same points.
+    """Return the text of the first argument of a selection, without a minus sign.
+
+    The text describes where the argument is zero, so its sign does not matter.
     """
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # The differences a - b and b - a have the same zeros, so both get the same text. In this text, a
-        # constant comes last.
+        # The differences a - b and b - a have the same zeros, so they get the same text. A constant is put
+        # last.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
     # ``str`` encloses sums, products and quotients in parentheses. The outer parentheses are removed.

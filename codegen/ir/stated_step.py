@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The operation that computes the point M y after a step of size h.
+    """The operation that computes the point M y after a step.
 
-    The arguments are the point y and the time t. The scene (the user's problem) defines the matrix M by a
+    The arguments are the point y and the time t before the step. The user's problem defines the matrix M by a
     formula with the name ``step``.
     """
 
@@ -32,7 +32,7 @@ class StatedStep(Operation):
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the new point M y."""
+        """Return the point M y after the step. ``args`` is the pair (y, t)."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

@@ -1,7 +1,7 @@
-"""Piecewise polynomials of one variable. The user defines a piecewise polynomial by a table of numbers.
+"""Piecewise polynomials of one variable, for functions that the user defines by a table.
 
-In an expression, a piecewise polynomial is called like the function ``sin``. The name of the function
-contains a hash of the coefficients.
+Expressions call a piecewise polynomial like the function ``sin``. The name of the function contains a hash of
+the knots and the coefficients.
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial in x. The string is the name of the function.
+    """A piecewise polynomial in x. The string is the name of this function in expressions.
 
-    The increasing numbers ``knots`` divide the real line into intervals. In interval k the value is the sum
-    of ``rows[k][j]`` (x - ``bases[k]``)^j over j. Interval k begins at ``knots[k - 1]`` and ends before
-    ``knots[k]``. The first interval has no beginning, and the last interval has no end.
+    The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
+    ``knots[k - 1]`` and ends before ``knots[k]``. The first interval is unbounded to the left, and the last
+    interval is unbounded to the right. On interval k, the polynomial is the sum over j of ``rows[k][j]``
+    (x - ``bases[k]``)^j.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -71,7 +72,7 @@ class PiecewisePolynomial(str):
 
     def derivative(self) -> PiecewisePolynomial:
         """Return the derivative as a piecewise polynomial. Its value at a knot is the right derivative."""
-        # The derivative of c (x - b)^j is j c (x - b)^(j-1). Entry j of a row thus becomes entry j - 1.
+        # The derivative of c (x - b)^j is j c (x - b)^(j-1), so the coefficients move by one place.
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
 
@@ -94,8 +95,7 @@ class PiecewisePolynomial(str):
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
         """Return the value at x of the polynomial of interval ``place``. x may be outside this interval."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
-        # The polynomial is evaluated by Horner's rule. The first value of ``total`` is the leading
-        # coefficient.
+        # Horner's rule begins with the leading coefficient.
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):
             total = c + step * total
