@@ -28,7 +28,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     # For each call of a vector function, ``together`` contains the tangents of all results.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
-        # The table ``known`` contains the tangents that are not zero. A symbol without a seed is constant.
+        # ``known`` contains the tangents that are not zero. A symbol that is not in ``seeds`` is constant.
         if node.op == "sym":
             if node.payload in seeds:
                 known[node.id] = seeds[node.payload]

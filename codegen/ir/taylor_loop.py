@@ -1,5 +1,5 @@
-"""The recurrence of Taylor coefficients as a loop over the order n. The alternative is code for each order,
-which is long for large vector fields.
+"""The recurrence of Taylor coefficients as a loop over the order n. For a large vector field, the loop is
+much shorter than separate code for each order.
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
 the sum of a_j b_{n-j} over 0 < j < n. It contains only coefficients of lower orders. For each order n, the
@@ -36,12 +36,12 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of four symbols in the loop over the order n. They denote n, 1/n, 1/(n + 1), and Taylor
-coefficient n of the time.
+"""The names of four symbols in the loop over the order n. Their values are n, 1/n, 1/(n + 1), and
+coefficient n of the time, which is 1 for n = 1 and 0 for n > 1.
 """
 
 PROBED = 3
-"""A series is treated as constant in time if its coefficients 1, ..., ``PROBED`` - 1 are identically zero."""
+"""If coefficients 1, ..., ``PROBED`` - 1 of a series are identically zero, the series is constant in time."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # ``extend`` computes the coefficients that the method ``constant`` reads. ``start`` contains only
-    # coefficient 1.
+    # The method ``constant`` reads coefficients of the coordinates. They are computed here.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -83,15 +82,13 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
-        # If the derivative of the coordinate is constant in time, ``x`` is None, and coefficient n + 1 of the
-        # coordinate is zero.
+        # If the derivative is constant in time, ``x`` is None. Coefficient n + 1 is then zero.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list ``work.pairs`` may grow in this loop, because ``work.of`` may add further inner sums.
+    # ``work.of`` may append pairs to ``work.pairs`` during this loop. The loop includes the new pairs.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
-    # After this loop the list ``work.pairs`` is complete.
     count = len(work.pairs)
     return OrderLoop(
         tuple(f"first.{k}" for k in range(len(work.first))),
@@ -106,7 +103,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return the names of the symbols for coefficient n of each of ``count`` coordinates."""
+    """Return ``count`` symbol names, one for coefficient n of each coordinate."""
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -119,7 +116,7 @@ def _known(x: Expr | None) -> Expr:
 class _Loop:
     """Builds the expression for coefficient n of each series.
 
-    - ``pairs`` are the pairs of series in the inner sums.
+    - ``pairs`` contains the two series of each inner sum.
     - ``first`` are expressions that are computed before the loop over n.
     - ``known`` maps the id of a series to the expression of its coefficient n. If the series is constant in
       time, the entry is None.
@@ -141,7 +138,7 @@ class _Loop:
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The symbol ``LINEAR`` is coefficient n of the time: 1 for n = 1, and 0 for n > 1.
+        # The symbol ``LINEAR`` is coefficient n of the time.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -164,14 +161,12 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Return True if a series is treated as constant in time (:data:`PROBED`)."""
+        """Return True if a series is constant in time (:data:`PROBED`)."""
         # None represents a coefficient that is identically zero.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a symbol for the value of ``x``, which is computed before the loop. A number is returned
-        unchanged.
-        """
+        """Return a symbol for ``x``, and add ``x`` to ``first``. If ``x`` is a number, return ``x``."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -227,8 +222,8 @@ class _Loop:
                 x = self.known[id(a)]
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
-                # ``series.inverse`` is 1/b_0. It is computed before the loop, so the loop contains no
-                # division.
+                # ``series.inverse`` is 1/b_0, where b is the divisor. It is computed before the loop, because
+                # a division in the loop would be slow.
                 rest = self.beyond(b, series)
                 return self.value(series.inverse) * (-rest if x is None else x - rest)
             case _:
@@ -243,8 +238,8 @@ class _Loop:
                 # 0 < j < n. ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # For p = a^e, a_0 p_n is the sum of ((e + 1) j/n - 1) a_j p_{n-j} over 0 < j <= n. The two
-                # parts of the factor give two sums. Coefficient j of ``slope`` is j a_j.
+                # For p = a^e, a_0 p_n is the sum of ((e + 1) j/n - 1) a_j p_{n-j} over 0 < j <= n. This
+                # sum is split into two sums. Coefficient j of ``slope`` is j a_j.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -262,8 +257,8 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # The derivative of the angle is the difference of a term with y' and a term with x'. If y or
-                # x is constant in time, its term is zero.
+                # The derivative of the angle is p y' - q x', where p and q are the two ``rates``. If y is
+                # constant in time, p y' is zero. If x is constant in time, q x' is zero.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -287,9 +282,8 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # The formula for coefficient n of the sine does not contain coefficient n of the cosine. The
-            # cosine is therefore not listed here. If it were listed, each of the two series would have to be
-            # computed before the other.
+            # Coefficient n of the sine depends only on lower coefficients of the cosine. The cosine is
+            # therefore not listed here.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

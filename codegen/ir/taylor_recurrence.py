@@ -1,9 +1,9 @@
 """Taylor coefficients in time of the solution of y' = F(y, t).
 
-Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). The coefficients of
-y follow from the coefficients of F in the order of their index. Each product of two series is a convolution,
-which is expensive. Therefore a product or quotient of powers of the same expression is rewritten as one
-power. For example, x sqrt(x) and sqrt(x)^3 become x^(3/2).
+Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). Coefficient
+n + 1 of y follows from coefficient n of F. Each product of two series is a convolution, which is expensive.
+Therefore a product or quotient of powers of the same expression is rewritten as one power. For example,
+x sqrt(x) and sqrt(x)^3 become x^(3/2).
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class _Builder:
         if base is not node:
             return (base,)
         if node.op == "div":
-            # A quotient with the divisor d x^e is built from the series of the numerator and of x.
+            # If the divisor is c x^e, the quotient is built from the series of the numerator and of x.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -96,7 +96,7 @@ class _Builder:
         return self.monomials[root.id]
 
     def _monomial(self, node: Expr) -> tuple[Number, Expr, Fraction]:
-        # ``plain`` is the result if the node is neither a multiple nor a power of another expression x.
+        # ``plain`` represents the node itself, as 1 times node^1.
         one, plain = Number.rational(1), (Number.rational(1), node, Fraction(1))
         parts = [self.monomials[a.id] for a in node.args]
         constants = [a.payload if a.op == "const" else None for a in node.args]
@@ -116,8 +116,8 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # The node is an integer power of c x^e. For e = 1 it is not rewritten, because products are
-                # sufficient. For e = 1/2, for example, sqrt(x)^3 becomes x^(3/2).
+                # The node is an integer power of c x^e. For e = 1 it is computed by repeated squaring. For
+                # e = 1/2, for example, sqrt(x)^3 becomes x^(3/2).
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -132,7 +132,7 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # If the exponent is 0, 2, 3, ..., the node is not rewritten, because products are sufficient.
+        # If the exponent is 0, 2, 3, ..., the node is not rewritten. Its operands are multiplied or divided.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -263,8 +263,7 @@ class _Builder:
                 self.shared[key] = result
             case "asin" | "acos":
                 result = Antiderivative(domain, name, a, slope)
-                # The derivative of asin at a is (1 - a^2)^(-1/2). The derivative of acos is the negative of
-                # this.
+                # The derivative of asin at a is (1 - a^2)^(-1/2), and acos' = -asin'.
                 root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
                 result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
                 self.shared[key] = result
@@ -278,7 +277,9 @@ class _Builder:
 
 
 class Recurrence:
-    """Computes the power series in s of the solution y(t + s * ``scale``) of a differential equation.
+    """Computes the Taylor coefficients in time of the solution y of a differential equation.
+
+    Coefficient n belongs to s^n in the power series of y(t + s * ``scale``).
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
     - ``roots`` are the expressions of the derivatives of the coordinates. If there are only m derivatives,
@@ -299,12 +300,12 @@ class Recurrence:
         self.domain, self.scale = domain, scale
         # ``closed=False`` means that :meth:`append` adds coefficients to the series.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
-        # The power series of the time in s is t + s * ``scale``, so it has two coefficients.
+        # The time is t + s * ``scale``. As a power series in s, it has two coefficients.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # If a derivative is a number times a series, the number is separated. :meth:`following` then combines
-        # this number and 1/(n + 1) into one factor.
+        # ``slopes`` contains each derivative as a number times a series. :meth:`following` combines the
+        # number and 1/(n + 1) into one factor.
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -326,8 +327,7 @@ class Recurrence:
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
-            # Several coordinates may have the same ``number``. Its product with ``scale`` is computed only
-            # once.
+            # Coordinates with the same ``number`` share the product of ``number`` and ``scale``.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))

@@ -62,8 +62,8 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # The series of a coordinate is not closed. Its coefficients follow from the differential equation,
-        # and are appended one by one.
+        # For a coordinate, ``closed`` is false. Its coefficients follow from the differential equation, and
+        # are appended one by one.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -83,14 +83,14 @@ class Sum(Series):
 
 
 class Multiple(Series):
-    """The product c a of a number c and a series a."""
+    """The product of a number c and a series a."""
 
     def __init__(self, domain: Domain, number: Number, a: Series) -> None:
         super().__init__(domain)
         self.a, self.number = a, number
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: the product c a_n."""
+        """Return coefficient n: the product of c and a_n."""
         return _scaled(self.domain, self.number, self.a.term(n))
 
 
@@ -154,17 +154,17 @@ class Power(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the power p = a^e.
+        """Return coefficient n of the power p = a^e, where e is ``exponent``.
 
         For n > 0 it is 1/(n a_0) times the sum of (e j - (n - j)) a_j p_{n-j} over 0 < j <= n.
         """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
-        # The recurrence follows from p' a = e a' p.
+        # The recurrence follows from the differential equation a p' = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The factor is an exact fraction. It may be zero, for example for e = 1/2, n = 3 and j = 2.
+            # The factor can be zero, for example for e = 1/2, n = 3 and j = 2.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -263,7 +263,8 @@ class Antiderivative(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of f(a).
 
-        Let r be ``rate``. For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over 0 < j <= n.
+        Let r = f'(a) be the series ``rate``. For n > 0, coefficient n is the sum of j a_j r_{n-j}/n over
+        0 < j <= n.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -276,7 +277,7 @@ class Circular(Series):
     """The sine or the cosine of a series a. ``name`` is "sin" or "cos".
 
     For the sine, ``other`` is the cosine of a. For the cosine, ``other`` is the sine of a, and ``minus`` is
-    true.
+    true, because cos' = -sin.
     """
 
     other: Circular
@@ -288,8 +289,8 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the sine or the cosine.
 
-        Let o be the series ``other``, and let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For n > 0,
-        the result is z for the sine, and -z for the cosine.
+        Let o be the other of the two functions. Let z be the sum of j a_j o_{n-j}/n over 0 < j <= n. For
+        n > 0, the result is z for the sine, and -z for the cosine.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -317,7 +318,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # ``means`` contains the sum of j y_j p_{n-j}/n and the sum of j x_j q_{n-j}/n.
+        # The first mean is the sum with y_j, and the second mean is the sum with x_j.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -362,12 +363,12 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     Let a_0 be the value of a at the beginning of the step. All coefficients are computed with the polynomial
     of the interval that contains a_0.
     """
-    # On one interval, f is a polynomial, so its Taylor series at a_0 is finite. The term of order k is
+    # The polynomial of one interval has a finite Taylor series at a_0. The term of order k is
     # (a - a_0)^k/k! times the derivative of order k at a_0.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
     # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
-    # constant.
+    # piecewise constant.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -404,15 +405,15 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
 
 
 def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
-    """Return the sum of slope_j factor_{n-j}/n over 0 < j <= n."""
+    """Return 1/n times the sum of s_j f_{n-j} over 0 < j <= n, where s is ``slope`` and f is ``factor``."""
     total = _total(multiplied(slope.term(j), factor.term(n - j)) for j in _late_last(n, range(1, n + 1)))
     return _scaled(domain, Number.rational(1, n), total)
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Sort the ``indices`` j of the products a_j b_{n-j} by the larger of the two indices j and n - j."""
-    # The coefficients with high indices are computed last. The products with these coefficients are therefore
-    # at the end of the sum, and the processor can compute all other products earlier.
+    """Sort the ``indices`` j of a sum of products a_j b_{n-j} by max(j, n - j)."""
+    # Coefficients with high indices are computed last, so products with these coefficients are added last.
+    # The processor can compute the other products earlier.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
