@@ -12,8 +12,8 @@ from codegen.lower.magnus import MagnusLowering
 class FerLowering(MagnusLowering):
     """Fer methods.
 
-    A step is a product of exponentials. The exponent of the last factor to act has no brackets. All other
-    exponents are sums of brackets.
+    A step applies several exponentials to y0. The last exponent contains no brackets. All other exponents
+    are sums of brackets.
     """
 
     # A Fer tableau lists exponents, as a Magnus tableau does, so both families have the same lowering.

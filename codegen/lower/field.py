@@ -9,7 +9,7 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for equations y' = f(y).y with f(y) in the Lie algebra. The dot is the action on y.
+    """A family for equations y' = f(y).y with f(y) in the Lie algebra, which acts on y.
 
     Hamilton's equations are equations of this form on the group T*G.
     """

@@ -56,11 +56,11 @@ class Parts:
 
     @property
     def arranged(self) -> list[Summand]:
-        """The summands in the order in which Phi* applies their flows. Phi applies them in reverse order.
+        """The summands in the order of their flows in Phi*, the adjoint of a method Phi.
 
-        A composition applies Phi* and Phi alternately, and begins with Phi*. A kick is a flow that changes
-        only the momentum. If the scene is not a lattice, kicks come first. A step then begins and ends with a
-        kick, and the kicks of two neighbouring steps can be joined into one flow.
+        A composition applies Phi* and Phi alternately, and begins with Phi*. Phi applies the flows in reverse
+        order. A kick is a flow that changes only the momentum. If the scene is not a lattice, kicks come
+        first. A step then begins and ends with a kick, and the kicks of two successive steps can be joined.
 
         On a lattice, flows of different steps are not joined, so kicks come last. Phi* then ends with a
         kick, and Phi begins with a kick. These two kicks are joined into one flow. Joining kicks saves time,
@@ -149,10 +149,11 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the flows of one step for a scene whose Hamiltonian is a sum of parts.
 
-        :class:`codegen.errors.MethodError` is raised in three cases:
+        :class:`codegen.errors.MethodError` is raised in four cases:
 
         - A part has no exact flow.
-        - The format of the tableau, or its number of parts, does not fit the scene.
+        - The format of the tableau does not fit the scene.
+        - The number of parts in the tableau does not fit the scene.
         - All parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
@@ -174,8 +175,7 @@ class FlowLowering(Lowering):
             # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The flow of the carrier also advances the time. This flow does not depend on t, so the time may
-            # be advanced after it.
+            # The flow of the carrier does not depend on t, so t can be advanced after this flow.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -194,7 +194,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
                 f"the part {part.name} has no exact flow: {part.reason}",
                 where=where,
                 expected="kicks, drifts, free rigid bodies, rotations about fixed axes, and linear flows",
-                hint="split the part into parts of these kinds",
+                hint="split this part into several parts with exact flows",
             )
     return Parts(scene, tuple(parts), where)
 

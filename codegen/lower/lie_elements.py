@@ -50,24 +50,24 @@ class LieElements:
     def exponent(self, target: str, combination: Combination) -> Var:
         """Append an exponent of the step, and return its variable ``target``.
 
-        The value of the variable includes all factors h.
+        The variable contains the exponent with all powers of h.
         """
-        # For the power 0, the variable is the whole exponent.
+        # The exponent is h^0 times the variable.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
-        """Append a linear combination to the program. Return its variable and its power of h.
+        """Append a linear combination to the program, and return it as a variable times a power of h.
 
-        By default, the power is the least power of h in the terms.
+        If ``power`` is None, the power is the least power of h in the terms.
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # A sum without terms is zero. Zero may have an arbitrary power of h. The default is 1.
+        # A sum without terms is zero. The power of h is then arbitrary, here 1.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
             return terms[0][1]
-        # The sum is h^least times the new variable, so each term is divided by h^least.
+        # The new variable contains the sum divided by h^least.
         scaled = [(Coefficient(x, value.power - least), value.var) for x, value in terms]
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 
@@ -78,7 +78,7 @@ class LieElements:
         return self.known[term]
 
     def _new(self, term: Term) -> Scaled:
-        # A term of type int is the index i of a node. Its value is h A(t + c_i h), so the power is 1.
+        # A term of type int is the index i of a node. The value h A(t + c_i h) contains one factor h.
         if isinstance(term, int):
             return Scaled(self.nodes[term], 1)
         # A term of type str is the name of an element that the tableau defines.
@@ -102,7 +102,7 @@ class LieElements:
                 f"the product {spell(term)} is in general not an element of the Lie algebra",
                 where=self.method.label,
                 expected="an odd number of factors in symmetric order, as in 1*2*1",
-                hint="write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y, where the tableau names s = x+y",
+                hint="write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y, where the tableau defines s = x+y",
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])

@@ -43,19 +43,19 @@ class LinearLowering(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return an objection if A depends on coordinates that change in time. Otherwise return None.
 
-        On a lattice, these may be coordinates of a site or of its neighbours.
+        On a lattice, A may depend on coordinates of a site and of its neighbours.
         """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
             return Objection(
-                ", because the field of a site depends on states that change, so the lattice is not of the "
-                "form y' = A(t).y",
+                ", because the field of a site depends on coordinates that change, so the lattice is not of "
+                "the form y' = A(t).y",
                 "a field that depends only on the time and on constant coordinates of a site and of its "
                 "neighbours",
             )
         return Objection(
-            ", whose field depends on the state", "a scene y' = A(t).y, where A depends only on the time"
+            ", whose field depends on the state", "an equation y' = A(t).y, where A depends only on the time"
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -77,8 +77,8 @@ class LinearLowering(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        The program evaluates A at the nodes, and computes the exponents X_1, X_2, ... from these values. In
-        this order, each exponent X_j moves the point y to tau(X_j).y (:meth:`move`).
+        The program evaluates A at the nodes, and computes the exponents X_1, X_2, ... from these values. The
+        method :meth:`move` then applies tau(X_1), tau(X_2), ... to the point, in this order.
         """
         if method.step:
             return self._stated(problem, method)
@@ -90,18 +90,18 @@ class LinearLowering(FieldLowering):
                 f"{method.tableau.family}",
                 expected="a tableau of format magnus",
             )
-        # Some families raise an error for certain tableaux, for example for exponents with brackets.
+        # Some families reject certain tableaux. For example, ``cf_magnus`` accepts no brackets.
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # A contains only constant coordinates, so A is evaluated at the initial point y for all nodes.
+        # The coordinates of y that occur in A are constant, so the initial y is used at all nodes.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
         # The first exponent acts first, so its exponential is the rightmost factor of the product.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
-        # ``Stages.program`` is not used here, because it adds a block of equations for the stages.
+        # ``Stages.program`` would add stage equations. This method has none.
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
         step = verify(Program(method.label, inputs, stages.builder.take(), (("y", point),)))
         return _with_momentum(problem, step)
@@ -113,9 +113,9 @@ class LinearLowering(FieldLowering):
                 f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "
                 "the step is not known to be symplectic",
                 where=problem.name,
-                expected="a step matrix in the group, for example exp(X) with X in the Lie algebra",
+                expected="a step matrix in the scene's group, for example exp(X) with X in the Lie algebra",
             )
-        # One operation computes the whole step, because the scene gives the matrix of the step.
+        # A step is one multiplication of y by a matrix. The scene gives a formula for this matrix.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
         body = (Assign((end,), StatedStep(method.step), (y, t)),)
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
@@ -148,14 +148,14 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """If the problem has a momentum conjugate to time, add its update to ``step``. Return the step."""
+    """Return ``step``. If the state contains a momentum conjugate to time, add the momentum's update."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:
         return step
-    # The formula for the momentum contains the whole step, so its statement is the last one.
+    # The momentum is updated last, because the update needs the whole step.
     ((_, point),) = step.outputs
-    # The new state consists of ``point``, the result of the step, and of the momentum u.
+    # ``point`` contains the old momentum. In ``moved``, the new momentum replaces it.
     moved = Var("y_with_u", Kind.POINT)
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
     return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

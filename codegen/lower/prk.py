@@ -7,10 +7,13 @@ Numerical Integration* (HLW):
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-Here f(q, p, t) is the pair of the velocity and the force. The unknowns are the velocities xi_i and the
-forces n_i. If the velocity does not depend on q, it is evaluated at q0 in place of Q_i. If the force does not
-depend on p, it is evaluated at p0 in place of P_i. With these substitutions, the compiler can detect explicit
-stages, for example in the Stoermer-Verlet method.
+The tableau for the positions has the coefficients a_ij and b_i. The tableau for the momenta has the
+coefficients ahat_ij and bhat_i. The pair f(q, p, t) consists of the velocity and the force. The unknowns
+are the velocities xi_i and the forces n_i.
+
+If the velocity does not depend on q, it is evaluated at q0 in place of Q_i. If the force does not depend on
+p, it is evaluated at p0 in place of P_i. With these substitutions, the compiler can detect explicit stages,
+for example in the Stoermer-Verlet method.
 """
 
 from __future__ import annotations
@@ -36,7 +39,7 @@ class PartitionedLowering(Lowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian.
+        """Return an objection if the scene has no Hamiltonian or a nonabelian group.
 
         For all other scenes return None.
         """
@@ -44,7 +47,7 @@ class PartitionedLowering(Lowering):
             return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")
         if scene.group.abelian:
             return None
-        hint = "use vcg, vcf or vrkmk, the variational methods on other groups"
+        hint = "use a variational method for Lie groups: vcg, vcf or vrkmk"
         return Objection(f", whose group is {scene.group.name}", "a Hamiltonian scene on R^n", hint)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -58,8 +61,8 @@ class PartitionedLowering(Lowering):
         also have the same weights (HLW Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
-        # If the ring cannot decide whether a number is zero, ``zero`` returns None. The test with ``is True``
-        # then treats the weights as different.
+        # If the ring cannot decide whether a difference is zero, ``zero`` returns None. In this case, the two
+        # weights count as different.
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
@@ -83,7 +86,6 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
-        # These two values decide where the velocity and the force are evaluated.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:
@@ -100,10 +102,10 @@ class PartitionedLowering(Lowering):
                 # because the integer 0 is not an element of the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
-                # The velocity does not depend on q, so q0 (the variable ``q``) may replace Q_i.
+                # If the velocity does not depend on positions, it is evaluated at the old position.
                 if not by_position:
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
-                # The force does not depend on p, so p0 (the variable ``mu``) may replace P_i.
+                # If the force does not depend on the momentum, it is evaluated at the old momentum.
                 if not by_momentum:
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
