@@ -42,9 +42,9 @@ class Lattice(ArrayModule, ABC):
         fails, the result contains the status and the states before the failed step.
 
         ValueError is raised if ``states`` has a wrong shape or contains a number that is not finite. It is
-        also raised if the method does not allow the numbers of sites n1, ..., nd. TypeError is raised for
-        arguments of a wrong type and for unknown parameters. InputError is raised if there is not enough
-        memory.
+        also raised if the method cannot be used with n1, ..., nd sites. For example, some methods need even
+        numbers. TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is
+        raised if there is not enough memory.
         """
         import numpy as np
 
@@ -63,7 +63,7 @@ class Lattice(ArrayModule, ABC):
         except MemoryError:
             raise InputError(
                 f"not enough memory for the workspace of {finite.size} sites",
-                expected=f"space for {interface.workspace} numbers for each site",
+                expected=f"memory for {interface.workspace} numbers for each site",
                 hint="use fewer sites",
             ) from None
         status, completed = self.advance(shape, table, (t, h, steps), values, work)

@@ -23,8 +23,8 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# With VECTOR_FLAGS, the compiler can use vector instructions in loops over systems, sites or modes. Two of
-# the flags assume that the module does not read errno or the flags of floating-point exceptions.
+# VECTOR_FLAGS allow vector instructions in loops over systems, sites or modes. Two of these flags are safe,
+# because an emitted module reads neither errno nor the flags of floating-point exceptions.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 """The compiler flags for modules that loop over lattice sites, Fourier modes or a batch of systems."""
 
@@ -84,8 +84,8 @@ def _opened(
 ) -> tuple[Artifact, Interface, dict[str, float]]:
     """Return the artifact of a module, its interface, and the default values of its parameters.
 
-    ``where`` is the name of the calling function, for example ``load``. InputError is raised if this function
-    cannot load the module.
+    ``where`` is the name of the calling function, for example ``load``. InputError is raised if the
+    calling function cannot load the module.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
@@ -99,8 +99,8 @@ def _opened(
         defaults = dict(artifact.manifest["defaults"])
     except (KeyError, TypeError, ValueError, AttributeError):
         raise InputError(
-            f"the entry for {artifact.key[0]} in the manifest is not valid: it was changed after it was "
-            "written, or another version of the program wrote it",
+            f"the entry for {artifact.key[0]} in the manifest is not valid: the entry was edited, or "
+            "another version of the compiler wrote it",
             hint="emit the module again",
         ) from None
     loader = "load_lattice" if interface.dimension else "load_spectral" if interface.modes else "load"

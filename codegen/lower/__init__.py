@@ -4,8 +4,8 @@ A method is a tableau together with a family such as ``rkmk``. A scene describes
 A lowering is an object of a subclass of :class:`Lowering`. Each family has one lowering. The function
 :func:`register` adds the lowering of a new family.
 
-The stages of many methods are defined by equations. In the program, the equations of all stages form one
-system, called a block.
+The stages of implicit methods are solutions of equations. In the program, these equations form one system,
+called a block.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 
 
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
-    """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
+    """Return ``given`` as a method for a scene (:func:`codegen.method.method_of`).
 
     ``given`` or ``family`` can name the family of the method. :class:`MethodError` is raised if the family
     does not accept the scene. The message gives the reason.
@@ -70,8 +70,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau file states an order for each family in ``error.claimed``. If such a family does not
-        # accept the scene, the user needs the reason. _check raises an error with this reason.
+        # The tableau file states an order for each family in ``error.claimed``. If one of these families
+        # does not accept the scene, the error of _check gives the reason.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -122,15 +122,15 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     Each substep is a step of the same method, called the base method. The program lists the length and the
     initial time of each substep.
 
-    The result is None if the program must compute the whole step.
+    The result is None if a step of ``method`` is not a sequence of substeps.
     """
-    # For example, a VRKMK method uses one exponential for the whole step.
+    # Some families cannot divide a step. A step of a VRKMK method, for example, is one exponential.
     if not lowering(method.family).repeats_substeps:
         return None
-    # A composition can be given as a Butcher tableau. Its coefficients then show that it is a composition.
+    # The function substeps() recognises compositions, even if they are given as Butcher tableaux.
     repetition = substeps(method)
     if repetition is None:
         return None
     base, steps = repetition
-    # The base method is lowered once, because its program does not depend on the length of the substep.
+    # All substeps use one program, because the program does not depend on the length of the substep.
     return replace(lower(scene, base), substeps=steps)

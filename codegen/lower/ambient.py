@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-In general, the numerical solution leaves the manifold. Since the exact solution is on the manifold, the
-distance of the numerical solution from the manifold is at most its error.
+In general, the numerical solution leaves the manifold. Its distance from the manifold is at most the error of
+the numerical solution, because the exact solution is on the manifold.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Ambient(Lowering):
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the manifold is an open subset of R^n."""
+        """Return True if the manifold is open in R^n, because small errors do not leave an open set."""
         return self.objection(scene) is None and orbit_is_open(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -38,6 +38,6 @@ class Ambient(Lowering):
         return scene.derived["ambient"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a Runge-Kutta step in coordinates."""
+        """Return the program of a Runge-Kutta step for y' = F(y) on R^n."""
         # On R^n, exp(u).y = y + u and all brackets vanish. An RKMK method is then a Runge-Kutta method.
         return with_cutoff(problem, method, 0)

@@ -77,18 +77,18 @@ class Lowering(ABC):
     """The preference for this family if the user names a tableau without a family.
 
     A tableau file states an order of accuracy for one or more families. The compiler chooses the family with
-    the highest order. If orders are equal, it chooses the family with the largest preference.
+    the highest stated order. If orders are equal, it chooses the family with the largest preference.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if the step of a composition may be computed as a sequence of substeps.
+    """True if a step of a composition can be computed as a sequence of substeps.
 
-    For VRKMK methods, for example, the value is False: one exponential computes the whole step.
+    For VRKMK methods, the value is False, because one exponential computes the whole step.
     """
 
     reads_coordinates: ClassVar[bool] = False
     """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`).
 
-    If False, the methods do not use it. Most of them use the exponential map.
+    If False, most of the methods use the exponential map.
     """
 
     in_coordinates: ClassVar[bool] = False
@@ -129,10 +129,10 @@ class Lowering(ABC):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the step program of a method, checked with :func:`codegen.ir.verify.verify`.
 
-        ``problem`` is the result of :meth:`problem`. If equations define the stages, these equations form one
-        block of the program.
+        ``problem`` is the result of :meth:`problem`. The program contains the equations of implicit stages
+        as one block.
 
-        :class:`codegen.errors.MethodError` is raised if the family cannot use tableaux of this format.
+        :class:`codegen.errors.MethodError` is raised if the family cannot use the tableau of ``method``.
         :class:`orderconds.errors.ZeroWeight` is raised if the program would divide by a weight b_i = 0.
         """
 
@@ -152,8 +152,7 @@ class Lowering(ABC):
 
         A Taylor method computes a step from the Taylor polynomial of the solution.
 
-        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low for
-        step-size control.
+        :class:`codegen.errors.MethodError` is raised if step-size control needs a higher degree.
         """
         return 0
 
@@ -169,12 +168,13 @@ class Lowering(ABC):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the :class:`Family` with the order conditions of a method.
 
-        In some families the order conditions depend on the scene.
+        In some families the order conditions depend on the scene. If ``scene`` is None, return the
+        conditions for a general scene.
         """
         from orderconds import families
 
-        # The order conditions of ``rkmk(2)``, for example, depend on the number 2. It is the number of
-        # brackets in the truncated series of dexp^{-1}.
+        # The order conditions of ``rkmk(2)``, for example, depend on the number 2, the highest power of ad
+        # in the truncated series of dexp^{-1}.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

@@ -32,7 +32,7 @@ class CayleyLowering(LinearLowering):
         if linear is not None or group.offers(CayleyMap) is not None:
             return linear
         expected = (
-            "a group whose algebra contains x^3 for each element x, such as SO(n), SE(3), Sp(2n) or U(n)"
+            "a group whose Lie algebra contains x^3 for each element x, such as SO(n), SE(3), Sp(2n) or U(n)"
         )
         return Objection(f", whose group is {group.name}", expected)
 

@@ -53,14 +53,14 @@ class CommutatorFreeLowering(FieldLowering):
 
 STORAGE = (
     "two registers (2N): the state Y and one element K of the Lie algebra; stage i computes K <- A_i K + "
-    "f(Y), where A_i is a coefficient"
+    "f(Y), then Y <- exp(h B_i K).Y, where A_i and B_i are coefficients"
 )
 
 
 STORAGE_OF_PAIR = (
     "three registers: the state Y, and two elements K and E of the Lie algebra; stage i computes K <- A_i K "
-    "+ f(Y) and E <- E + D_i f(Y), where A_i and D_i are coefficients; the error estimate compares the "
-    "update y with the embedded solution exp(h E).y"
+    "+ f(Y) and E <- E + D_i f(Y), then Y <- exp(h B_i K).Y, where A_i, B_i and D_i are coefficients; the "
+    "error estimate compares the new state Y with the embedded solution exp(h E).Y"
 )
 
 
@@ -68,9 +68,10 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
     """Return a low-storage scheme for ``method``, and the coefficients D_i of its embedded method.
 
     Let k_i be the value of the field at stage i. The embedded method applies exp(h sum_i D_i k_i) to the
-    result of ``method``. If there is no embedded method, None replaces the coefficients.
+    result of ``method``. Without an embedded method, the second result is None.
 
-    If ``method`` has no low-storage scheme or the D_i do not exist, the function returns None.
+    The function returns None if ``method`` has no low-storage scheme, or if the embedded method does not have
+    this form.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -95,8 +96,9 @@ def two_registers(
     Here k_i is the value of the field at Y_i. A step stores only the state and one element K of the Lie
     algebra.
 
-    If there is an embedded method, ``estimate`` contains its coefficients (D_1, ..., D_s). A step then also
-    stores the sum E of the D_i k_i. The embedded method applies exp(h E) to the new state.
+    ``estimate`` contains the coefficients (D_1, ..., D_s) of the embedded method, or None if there is no
+    embedded method. With an embedded method, a step also stores the sum E of the D_i k_i. The embedded method
+    applies exp(h E) to the new state.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -108,7 +110,7 @@ def two_registers(
     sums: list[Var] = []
 
     def advance(i: int) -> None:
-        """Append the operations that compute K, E and the next state from the value k of stage i."""
+        """Append the operations that compute K, E and the next state from the field at stage i."""
         terms = [(one, k[i])]
         # At the first stage, K_1 = k_1.
         if register:
@@ -120,8 +122,8 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # For each stage, ``times`` contains c with the stage time t + c h. The number c is the sum of the
-    # coefficients of all earlier exponents.
+    # The time of stage i is t + times[i] h. The number times[i] is the sum of the coefficients in the
+    # exponents of all earlier stages.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
@@ -165,15 +167,15 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # A stage can only begin at the point of an earlier stage. This point is already in ``points``.
+        # ``points`` contains the points of the earlier stages. A stage can begin at one of these points.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of stage i is t + c h with c = times[i]. Here c is the sum of the coefficients in the
-            # exponents. If the stage begins at the point of an earlier stage, the c of that stage is added.
+            # The time of stage i is t + times[i] h. The number ``own`` is the sum of the coefficients in the
+            # exponents. If stage i begins at the point of stage j, its time also contains times[j] h.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
@@ -184,7 +186,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded method has its own exponentials.
+        # The embedded solution is another product of exponentials.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 

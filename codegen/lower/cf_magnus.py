@@ -11,5 +11,4 @@ from codegen.lower.magnus import MagnusLowering
 class CommutatorFreeMagnusLowering(MagnusLowering):
     """Commutator-free Magnus methods: Magnus methods without brackets."""
 
-    # The lowering of Magnus methods is inherited. Here the tableaux contain no brackets.
     family = "cf_magnus"

@@ -16,20 +16,20 @@ HALF = Number.rational(1, 2)
 class CompositionLowering(FlowLowering):
     """Symmetric compositions of Strang's step.
 
-    Other methods of the family are compositions of a first-order step Phi and its adjoint Phi*.
+    The family also contains compositions of a first-order step Phi and its adjoint Phi*.
     """
 
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows of a step, and the label of the family with the order conditions."""
+        """Return the flows of a step in order, and the label of the family with its order conditions."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
         # The family cannot use tableaux of other classes.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # A Strang step of length gamma h consists of a step of Phi* and a step of Phi, each of length
-        # gamma h/2. Phi* acts before Phi.
+        # A Strang step of length gamma h is a step of Phi*, followed by a step of Phi. Each has the length
+        # gamma h/2. Phi is a product of the flows, and Phi* applies them in the opposite order.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -15,8 +15,10 @@ A discrete differential is an element D of the dual with <D, eta> = H(x1) - H(x0
 
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-The second term corrects the error of the quadrature. With the single node 1/2, D is equation (2.31) of the
-thesis with gamma at the midpoint. With Gauss nodes, g approximates the mean of gamma that section 2.6 uses.
+The last factor eta is read as an element of the dual with the same coordinates, and |eta| is the Euclidean
+norm of these coordinates. The second term corrects the error of the quadrature. With the single node 1/2, D
+is equation (2.31) of the thesis with gamma at the midpoint. With Gauss nodes, g approximates the mean of
+gamma that section 2.6 uses.
 
 The step solves the equation xi = omega(D, .). Here omega is the bivector of the scene at the midpoint
 exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0. Therefore H(x1) = H(x0) for
@@ -53,7 +55,7 @@ class DiscreteGradient(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene, or None if the family accepts it.
 
-        The family accepts a scene if the scene does not depend on time and its field preserves an energy.
+        The family accepts a scene if the scene has an energy and does not depend on time.
         """
         expected = f"a Hamiltonian that does not depend on time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
@@ -71,14 +73,14 @@ class DiscreteGradient(FieldLowering):
         where the field is not zero. It is also raised if a force at the open boundary of a lattice is not a
         derivative of the energy.
         """
-        # The energy of a single site changes, because neighbours exchange energy. For a lattice, _agrees
-        # therefore uses all sites of a small lattice.
+        # The energy of a single site is not constant, because neighbours exchange energy. Therefore _agrees
+        # tests the equation on all sites of a small lattice.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
                     f"{method.label} cannot be used on {problem.name}: a state outside the open boundary "
                     "exerts a force that is not the derivative of an energy",
-                    expected='an argument "outside" whose states are constant or exert no force',
+                    expected='states in the argument "outside" that are constant or exert no force',
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
@@ -100,7 +102,7 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # ``moved`` returns the point exp(part h velocity).y.
+    # ``moved`` returns the point exp(part * h * velocity).y.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -123,7 +125,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def update() -> dict[str, Var]:
         # The solver computes xi from the equation xi = f(xi). If xi has the error e, f(xi) has the smaller
-        # error O(h e). The update uses f(xi), because errors of the energy add up over many steps.
+        # error O(h e). The update uses f(xi), because the energy errors of all steps add up.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -134,15 +136,14 @@ def _agrees(scene: Problem) -> bool:
 
     Here gamma is the differential of the energy.
     """
-    # The equation is required only on the orbit, so all sample points are on the orbit.
+    # A solution stays on its orbit, so all sample points are on the orbit.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # Except for Hamilton's equations on T*G, ``bivector`` divides by |gamma|^2. If gamma is zero, the
-        # quotient is replaced by zero. The test then fails if f is not zero.
+        # If gamma is zero, ``image`` is zero. The result is then False if f is not zero.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True
