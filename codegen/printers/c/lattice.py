@@ -8,7 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 
 SIDES = {1: 1000, 2: 64, 3: 16}
-"""The number of sites along each axis in the usage example. The keys are the dimensions of the lattice."""
+"""The number of sites along each axis in the usage example, for lattices of dimension 1, 2 and 3."""
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:

@@ -1,6 +1,6 @@
-"""Prints a step on Fourier modes as a C module, with the files PREFIX.h and PREFIX.c.
+"""Prints a step of a Fourier spectral method as a C module, with the files PREFIX.h and PREFIX.c.
 
-A third file, PREFIX_fft.c, contains Fourier transforms. A user may supply other Fourier transforms instead.
+A third file, PREFIX_fft.c, contains a fast Fourier transform. A user may supply another transform instead.
 """
 
 from __future__ import annotations
@@ -72,10 +72,9 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # In the template, f0, f1, ... are functions of z, and value1, ... are values of N or coefficients.
+    # The template has its own variables: f0, f1, ..., value1, value2, ..., array0, ... and term0, ...
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
-    # At the grid points, array0, ... are derivatives of the state u, and term0, ... are the terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
     # In the module, ``points`` is the array of grid points (the space coordinate), and ``t`` is the time.
     names = {"t": "t", step.space: "points"}
@@ -115,10 +114,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # The workspace contains one spectrum for each evaluation of the nonlinear part N, and four others: of
-        # the old state, of the new state, of the argument of N, and of a temporary result.
+        # The workspace contains one spectrum for each evaluation of the nonlinear part N. Four more spectra
+        # contain the old state, the new state, the argument of N, and a temporary result.
         "spectra": 4 + len(step.evaluations),
-        # At the grid points, each derivative of u in N and each term of N needs an array.
+        # The workspace also contains grid values of the derivatives in N and of the terms of N.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -130,11 +129,11 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas that depend on the wave number or on the space coordinate.
+    """Return the template variables with formulas that contain the wave number or the space coordinate x.
 
-    - The result contains ``symbol`` if the Fourier symbol of the linear part depends on the wave number.
-    - The result contains ``initial`` if the initial state depends on the space coordinate.
-    - The result contains ``formulas`` if the nonlinear part depends explicitly on the space coordinate.
+    - The result contains ``symbol`` if the eigenvalues of the linear part depend on the wave number.
+    - The result contains ``initial`` if the initial state depends on x.
+    - The result contains ``formulas`` if the formulas of the nonlinear part contain x.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),

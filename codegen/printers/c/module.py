@@ -41,32 +41,30 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 # x86-64 without AVX-512 does not vectorise loops that select one of two values. -fno-trapping-math removes
 # the assumption.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Additional flags for modules that integrate a batch of systems or a lattice.
+"""Flags for modules that loop over the systems of a batch, lattice sites or Fourier modes.
 
-If -ffp-contract=off is also set, these flags do not change the computed numbers.
+These flags are set in addition to :data:`FLAGS`. They make loops faster and do not change the results.
 """
 
 FRAMES = 640
-"""The memory, in bytes, for return addresses, saved registers and calls of helper functions.
+"""The part of the stack bound for return addresses, saved registers and calls of helper functions, in bytes.
 
-This memory is a part of the stack bound. The stack bound is an upper bound on the stack memory of one call of
-an emitted function (:func:`stack`).
+The stack bound is computed by :func:`stack`.
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The numbers of bytes in the stack bound for one floating-point number of a step.
+"""The memory in the stack bound for one number (a variable or an array entry), in bytes.
 
 ``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. Steps that solve
-equations need more memory, because an optimiser moves common subexpressions out of the loop and stores their
-values. In measurements, these steps needed at most 8.8 bytes for each number in double precision, and at most
-8.0 bytes in single precision.
+equations need more memory, because an optimiser moves constant expressions out of the iteration loop and
+stores their values. In measurements, these steps needed at most 8.8 bytes per number in double precision, and
+at most 8.0 bytes in single precision.
 
-Both constants are also used in single precision, because an optimiser stores pairs of floats in registers of
-16 bytes. Each float then needs 8 bytes.
+The constants are the same in single precision: an optimiser may store two floats in 16 bytes.
 """
 
 LARGEST_STACK = 6 * 2**20
-"""The largest permitted stack bound, in bytes. Most systems limit the stack to 8 MiB."""
+"""The largest permitted stack bound (:func:`stack`), in bytes. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
 """The compilers and flags with which tests compare the stack bound with the measured stack."""
@@ -84,8 +82,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # A step that solves equations calls Stumpff functions often. ``sweeps`` makes all these functions
-        # inline.
+        # A step that solves equations calls Stumpff functions often. Therefore these functions are inline.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so the arrays in ``invert`` have ``widest`` entries.
@@ -95,7 +92,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # The text has at most 96 characters in a line, because a star and spaces precede the text in a C comment.
+    # Lines of the header comment have at most 96 characters. A star and spaces precede each line.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
         # Titles and names from users may contain ``*/``. ``comment`` prints ``* /`` in its place.
@@ -125,7 +122,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # The definitions also use ``head``, so each prototype agrees with its definition.
+        # ``head`` prints the first lines of definitions, too. Thus prototypes and definitions agree.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -152,8 +149,8 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # A step calls a function that sets the inputs. The function ``hold`` sets constant inputs. For this
-        # purpose, ``hold`` copies the array ``context``.
+        # ``step`` calls functions that get the inputs from a callback. ``hold`` is a callback for constant
+        # inputs.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -178,9 +175,9 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 
 def helpers(unit: Unit) -> list[str]:
-    """Return the sorted names of the helpers and library functions that a module calls."""
-    # A module with loops over lanes (systems of a batch) or sites calls special helpers, such as
-    # ``sin_near``, instead of sin, cos and the Stumpff functions.
+    """Return the sorted names of the helper functions and library functions that a module calls."""
+    # Branches prevent vector instructions in loops over lanes (systems of a batch) or sites. Such loops call
+    # variants of sin, cos and the Stumpff functions without branches, for example ``sin_near``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -196,9 +193,9 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the helpers that a module with loops over lanes or sites calls.
+    """Return the names of the helper functions that a module with loops over lanes or sites calls.
 
-    A lane is one system of a batch. Instead of ``sin``, for example, the result contains ``sin_near``.
+    A lane is one system of a batch. A name may be the name of a variant, for example ``sin_near``.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -219,28 +216,26 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the number of rows of the matrices that a step inverts by elimination.
+    """Return the size of the matrices that a step inverts by elimination, or 0.
 
-    The result is 0 if the step inverts no matrix, or matrices of different sizes. The result is also 0 if a
-    matrix has more than :data:`~codegen.run.sweeps.WIDE` rows.
+    If all matrices have the same size n, and n is at most :data:`~codegen.run.sweeps.WIDE`, the result is n.
+    Then the inner loop of the emitted function ``invert`` is unrolled.
     """
     sizes = inverted_sizes(kernel)
-    # If all matrices have the same small size, the inner loop of the emitted ``invert`` is unrolled.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a text with an upper bound on the stack memory of one call of an emitted function.
+    """Return a text with the stack bound: an upper bound on the stack memory of an emitted function.
 
-    The bound is the sum of three parts: the memory for all numbers of a step, the memory for stack frames
-    (:data:`FRAMES`), and a margin. Without optimisation (-O0), a call needs about the sum of the first two
-    parts. Tests compare the bound with measured values.
+    The bound is the sum of the memory for variables and arrays, the memory for stack frames (:data:`FRAMES`),
+    and a margin. Tests compare the bound with measured values.
 
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The local variables of the emitted function ``invert`` need FRAMES / 2 more bytes. A kernel that is
-    # inlined in the function ``run`` has no stack frame and needs FRAMES / 2 bytes less.
+    # The emitted function ``invert`` adds FRAMES / 2 bytes. A kernel that is inlined in ``run`` has no stack
+    # frame of its own, which saves FRAMES / 2 bytes.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -256,8 +251,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
-    # Without optimisation, a call needs about ``size * numbers + frames`` bytes. The margin is the difference
-    # between the bound and this number.
+    # Without optimisation, a call needs about ``size * numbers + frames`` bytes. The rest is the margin.
     margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
     return (
         f"at most {bound} bytes with {MEASURED}{margin}; "
@@ -272,7 +266,8 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all helpers are reserved. Thus a variable keeps its name if the module calls other helpers.
+    # The names of all helpers are reserved, even if the module does not call them. Thus the names of
+    # variables do not depend on the called helpers.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -325,8 +320,9 @@ def prototypes(interface: Interface) -> str:
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
     """Return the declaration of the function ``integrate``, which integrates to a given end time.
 
-    If the module has no function ``integrate``, the result is an empty text. ``passed`` declares the
-    parameters and the inputs of the scene. ``statistics`` declares the argument for the statistics.
+    If the module has no function ``integrate``, the result is an empty text. ``passed`` is the C text that
+    declares the arguments for parameters and inputs. ``statistics`` is the C text that declares the argument
+    for the statistics of the solver.
     """
     if not interface.integrated:
         return ""
