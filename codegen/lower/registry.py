@@ -1,4 +1,4 @@
-"""The registry of lowerings: one for each family that the compiler supports."""
+"""The registry of lowerings. A lowering turns the methods of one family into programs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
-    # The modules are imported inside the function, because they import the package codegen.lower themselves.
+    # These modules import the package codegen.lower, so imports at the top of the file would be circular.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
@@ -60,18 +60,18 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register a lowering for all commands, and return its class. The function can be used as a decorator.
 
-    ``family`` is the class that defines the order conditions of the family. If ``family`` is given, it is
-    also registered (:func:`orderconds.families.register`).
+    The class ``family`` defines the order conditions of the family. If this class is given, the function
+    registers it, too (:func:`orderconds.families.register`).
 
-    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`. It is also
-    raised if another class is already registered as the lowering of the family.
+    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
+    family that has a lowering of another class.
     """
     if not lowering.family:
         raise MethodError(
             f'the class {lowering.__name__} does not set the attribute "family"',
             expected='family = "NAME" in the class',
         )
-    # A second class for a family is refused. Otherwise methods would depend on the order of registration.
+    # With two classes for one family, the emitted code would depend on the order of registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
@@ -106,7 +106,7 @@ def names() -> tuple[str, ...]:
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
     """
-    # A dictionary keeps the order in which its keys were added.
+    # The built-in families were added to the dictionary first.
     return tuple(_lowerings())
 
 
@@ -132,13 +132,13 @@ def families_for(scene: Problem) -> tuple[str, ...]:
     The names are sorted by decreasing :attr:`Lowering.preference`.
     """
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
-    # The sort is stable: families of the same preference keep the order of registration.
+    # The sort is stable: families with equal preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
     """Return the lowerings of all families. The keys are the names of the families."""
-    # The built-in modules import this package. Therefore the first call of this function imports them.
+    # The first call adds the built-in lowerings, because an earlier import would be circular.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

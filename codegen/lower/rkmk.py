@@ -9,7 +9,7 @@ Here a_ij and b_i are the coefficients of the tableau, and dexp^{-1}_{(r),u} is 
 to the terms with r brackets. The unknowns are the v_i.
 
 If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. The method then has the order of the tableau, and a cut-off has no effect.
+replaces the truncated dexp^{-1}. Such a method has the order of the tableau, and a cut-off has no effect.
 """
 
 from __future__ import annotations
@@ -70,9 +70,9 @@ class MuntheKaas(FieldLowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family with the order conditions of the method.
 
-        If the method has no cut-off, its order conditions depend on the brackets that a search has found. If
-        the scene has a coordinate map other than exp, the inverse differential of the map is exact. The
-        result is then the family ``rkmk`` without a cut-off.
+        If the scene has a coordinate map other than exp, the result is the family ``rkmk`` without a cut-off.
+        For the map exp and a method without a cut-off, the order conditions depend on the brackets that a
+        search finds.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -82,7 +82,7 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The emitted code and the order conditions use the same bracket program.
+        # The order conditions must belong to the brackets that the emitted code computes.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -97,7 +97,7 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # The computation of the order takes time, and a report needs the order many times.
+    # The result is cached, because a report needs the order many times.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
@@ -108,7 +108,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... With the cut-off 0, only the term
-        # k remains. On a group that is not abelian, the order is then at most two.
+        # k remains. This limits the order to two on a group that is not abelian.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)
@@ -117,7 +117,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
     """Return the program of the continuous extension.
 
-    The result is None if the tableau is implicit or has no continuous extension.
+    The series of dexp^{-1} has at most ``cutoff`` brackets. The result is None if the tableau is
+    implicit or has no continuous extension.
     """
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
@@ -150,8 +151,8 @@ def _program(
 ) -> Program:
     """Return the program of a step with the coordinate map ``element``, for example exp.
 
-    The function ``inverse`` appends the inverse differential of this map. If ``extension`` is given, the
-    program computes the coefficients of the continuous extension and not the new state.
+    The function ``inverse`` appends a statement with the inverse differential of this map. If ``extension``
+    is given, the program computes the coefficients of the continuous extension instead of the new state.
     """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
@@ -162,7 +163,7 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # This is a Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra.
+            # This is a Runge-Kutta stage of the equation u' = dexp^{-1}_u f(exp(u).y) in the Lie algebra.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
@@ -175,18 +176,18 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # The extension gives the state at the time t + theta h. Its weights are polynomials b_i(theta). Row p
-        # of ``rows`` contains the coefficients of theta^p in these polynomials.
+        # The extension gives the state at the time t + theta h. Its weights are polynomials b_i(theta). Each
+        # row contains the coefficients of one power theta^p.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution combines the same v_i with other weights.
+        # The embedded solution uses the same stage values v_i with other weights.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # Without an extension, the program returns the new state. With an extension, the program returns one
-    # element of the Lie algebra for each power of theta.
+    # Without an extension, the program returns the new state. With an extension, it returns a polynomial in
+    # theta, whose coefficients are elements of the Lie algebra.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

@@ -2,7 +2,7 @@
 
 A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
 (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
-points and the transported forces are
+points Q_i of the stages, and the forces nu_j transported to the start of the step, are
 
     X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
 
@@ -11,7 +11,7 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The order is at most two. In the thesis, f contains the factor h. The method with one stage, a_11 = theta and
+The order is at most two. The thesis includes the factor h in f. The method with one stage, a_11 = theta and
 b_1 = 1 is the theta-method:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
@@ -40,11 +40,11 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. All M_i
-# together need s + 1 evaluations of dexp*: one for -Y and one for each X_j.
+# The operation dexp*_{-Y} replaces the two operations dexp*_Y Ad*_{exp(-Y)}. All M_i together need s + 1
+# evaluations of dexp*: one for -Y and one for each X_j.
 #
-# With one stage, the formula of M has two terms with the force n. The following identity merges these terms.
-# Here a = a_11, b = b_1 and x = h xi:
+# With one stage, the formula of M has two terms with the force n. Let a = a_11, b = b_1 and x = h xi. The
+# following identity merges the two terms into one:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -74,13 +74,13 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append the statements of the momentum M of a method with one stage, and return M."""
-        # The identity in the comment before ``_program`` merges the two terms with the force n.
+        # The identity above ``_program`` merges the two terms with the force n into one.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # Since ``after`` is X - Y, the map Ad*_{exp(after)} is equal to Ad*_{exp(-Y)} Ad*_{exp X}.
+        # ``after`` is X - Y. X and Y commute, so Ad*_{exp(after)} is Ad*_{exp(-Y)} Ad*_{exp X}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -1,12 +1,12 @@
 """Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
-If the tableau and the scene have the same number of parts, a step applies one flow for each coefficient. The
-duration of this flow is h times the coefficient.
+If the tableau and the scene have the same number of parts, each coefficient x of the tableau gives one flow
+of duration x h.
 
-A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
-composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
-Hamiltonian one by one, and Phi* applies them in the opposite order. The composition has the order of the
-splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+If the scene has more than two parts, a tableau for two parts defines a composition of a basic method Phi and
+its adjoint Phi*. Phi applies the flows of all summands of the Hamiltonian one by one, and Phi* applies these
+flows in the opposite order. The composition has the order of the splitting for any basic method Phi
+(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class SplittingLowering(FlowLowering):
     family = "splitting"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the flows with their durations, and the label of the family with the order conditions."""
+        """Return the flows with their durations, and the label of the family whose order conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
@@ -53,8 +53,7 @@ class SplittingLowering(FlowLowering):
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # By McLachlan's theorem, the coefficients for two parts A, B also define a composition of Phi and
-        # Phi*.
+        # A tableau for two parts also defines a composition of Phi and Phi* (see the top of this module).
         if len(tableau.parts) == 2 and len(chosen) > 2:
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
@@ -69,11 +68,11 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the flows of a splitting, and the label of the family with the order conditions.
+    """Return the flows of a splitting, and the label of the family whose order conditions apply.
 
     If the parts of the tableau and of the scene have the same names, the parts are matched by name. Otherwise
-    the parts are matched by position. In a Runge-Kutta-Nystroem splitting of a Hamiltonian, however, the part
-    V of the tableau is matched with the kick. A kick is a flow that changes only the momentum.
+    the parts are matched by position, except in a Runge-Kutta-Nystroem splitting of a Hamiltonian. There the
+    part V of the tableau is matched with the kick. A kick is a flow that changes only the momentum.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -81,8 +80,7 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # ``rkn`` is the index of the part V in the tableau. The sort moves the kick to this index. There are
-        # two parts, so the index is 0 or 1.
+        # ``rkn`` is the index of the part V in the tableau, 0 or 1. The sort moves the kick to this index.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -108,8 +106,8 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # For example, the result is zero if V depends on q alone and T is quadratic in mu, because each bracket
-    # with V lowers the degree in mu by one.
+    # Suppose, for example, that V depends only on q, and T is quadratic in mu. Each bracket with V lowers the
+    # degree in mu by one, so the nested bracket is zero.
     for _ in range(3):
         # The sign convention of the bracket does not matter, because the result is only compared with zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
@@ -117,8 +115,8 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
-    """Return True if each part is a polynomial of degree two or less in the momentum of a lattice site."""
-    # The degree is at most two if all third derivatives vanish.
+    """Return True if all parts are polynomials of degree two or less in the momentum of one lattice site."""
+    # A polynomial has degree two or less if and only if all its third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
     for _ in range(3):
@@ -127,35 +125,34 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return a splitting in two parts as a composition of Phi and Phi*.
+    """Return the composition of Phi and Phi* that is equal to a splitting in two parts.
 
-    The result contains pairs (beta_i, alpha_i): the coefficients of Phi* and Phi in the composition.
+    The result contains the pairs (beta_i, alpha_i). Phi* has the duration beta_i h, and Phi has the duration
+    alpha_i h.
     """
     # Let A be the part whose flow acts first, and B the other part. The splitting applies the flows A_{x1},
     # B_{x2}, A_{x3}, ... in this order. Phi* applies first A and then B. Phi applies first B and then A. The
     # composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the splitting if x1 = beta_1,
-    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. The first equation gives beta_1, the second
-    # gives alpha_1, the third gives beta_2, and so on.
+    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations give beta_1, alpha_1, beta_2,
+    # ... one after the other.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # Two consecutive flows of one part are joined, because the recursion requires that the two parts
-        # alternate.
+        # In the equations above, the flows of A and B alternate. Consecutive flows of one part are joined.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # The equations above contain only the durations of the flows.
     durations = [x for _, x in joined]
-    # The loop below requires an odd number of flows. If the number is even, a flow of duration zero is
-    # appended.
+    # The loop below requires an odd number of flows. A flow of duration zero changes nothing.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # ``carried`` is beta_i, ``inner`` is beta_i + alpha_i, and ``outer`` is alpha_i + beta_{i+1}.
+        # In the equations above, ``carried`` is beta_i. The sum beta_i + alpha_i is ``inner``, and the sum
+        # alpha_i + beta_{i+1} is ``outer``.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The last value of ``carried`` is not used. It is zero, because both parts have the same total duration.
+    # The last value of ``carried`` is zero, because both parts have the same total duration.
     return composed

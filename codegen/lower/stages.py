@@ -1,4 +1,4 @@
-"""The program of a step, built from the equations of its stages."""
+"""Builds the program of a step from the equations of its stages."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from orderconds.ring.protocol import Element
 
 @dataclass
 class Stages:
-    """Collects the stages of a method into a program.
+    """Builds the program of one step of a method.
 
-    The program consists of three parts:
+    The stages are given by fixed-point equations. The program consists of three parts:
 
     - the initial guesses of the unknowns ("starts"),
-    - one block with the right-hand sides of the fixed-point equations ("images"),
+    - the right-hand sides of the equations ("images"),
     - the update, which computes the new state from the solution of the equations.
     """
 
@@ -32,7 +32,7 @@ class Stages:
     time: Var | None = field(init=False)
 
     def __post_init__(self) -> None:
-        # Emitted code has the arguments t and h, so no value may have these names.
+        # Emitted functions have the arguments t and h, so other values must not have these names.
         self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
@@ -46,18 +46,18 @@ class Stages:
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
         """Append the statement target = h sum_j row_j values_j, and return its variable."""
-        # Terms with the coefficient zero are appended, too. A later pass of the compiler removes them.
+        # A later pass of the compiler removes the terms with the coefficient zero.
         terms = [(self.times_h(x), v) for x, v in zip(row, values, strict=True)]
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return a tuple with the time t + c h, or with t if ``c`` is None.
+        """Return a tuple with the time t + c h.
 
-        If the scene does not depend on time, the tuple is empty.
+        If ``c`` is None, the time is t. If the scene does not depend on time, the tuple is empty.
         """
         if self.time is None:
             return ()
-        # For c = 0, the variable t itself is returned. All evaluations at t then have the same argument.
+        # For c = 0, the time is the variable t itself, so no statement is appended.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -74,21 +74,21 @@ class Stages:
         starts: Callable[[], Sequence[Var]],
         update: Callable[[], dict[str, Var]],
     ) -> Program:
-        """Return the verified program: the starts, one block with the equations, and the update.
+        """Verify and return the program of the step.
 
         The functions ``starts``, ``images`` and ``update`` append statements and return variables. The result
-        of ``update`` is a dictionary of the outputs. A new state has the name of the old state as its key.
+        of ``update`` is a dictionary of the outputs. The key of a new state is the name of the old state.
         """
-        # The functions append to one builder, so the order of the calls is the order of the statements.
+        # The functions append to one builder. Their statements are in the order of the calls.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # One block contains all stages. If the stages can be computed one after the other, a later pass
-        # divides the block.
+        # One Solve block contains all stages. If the stages can be computed one after the other, a later pass
+        # of the compiler divides the block.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # The update needs the solution of the equations, so its statements follow the block.
+        # The update needs the solution of the equations, so its statements follow the Solve block.
         outputs = update()
-        # The time is the last input. Thus the state comes first in all programs.
+        # The time is the last input, so the state comes first in all programs.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

@@ -6,8 +6,8 @@ Suppose that the stages of a tableau form consecutive groups with two properties
 - a_ij = 0 if stage j is in a later group than stage i.
 
 Let gamma_k be the sum of the b_j of group k. Then the method is a composition, and group k is a substep of
-length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). Divide the coefficients of each group by its
-gamma_k. If the results are the same for all groups, one program is enough for all substeps.
+length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The coefficients of group k, divided by gamma_k,
+are the tableau of this substep. If all substeps have the same tableau, one program computes all substeps.
 
 Only implicit methods are split into substeps. The substeps of an explicit method have common subexpressions.
 A separate program for one substep would compute these subexpressions again in every substep.
@@ -27,13 +27,13 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the base method of a composition, and the substeps of its step.
+    """Return the base method of a composition, and the substeps of one step.
 
-    The substeps are steps of the base method with different lengths. The result is None if the tableau is not
-    a composition of implicit substeps, or if the step also computes an embedded solution.
+    Each substep is a step of the base method. The substeps can have different lengths. The result is None if
+    the tableau is not a composition of implicit substeps, or if the step also computes an embedded solution.
 
-    Some families cannot divide a step into substeps. The caller checks this with the attribute
-    ``repeats_substeps`` of :class:`codegen.lower.Lowering`.
+    Some families cannot divide a step into substeps. The caller must check the attribute
+    ``repeats_substeps`` of :class:`codegen.lower.Lowering` first.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -42,8 +42,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution needs the stages of all substeps. A program for one substep does not store the
-    # stages of the other substeps.
+    # The embedded solution needs the stages of all substeps, but a program for one substep has only its own.
     if method.adaptive:
         return None
     tableau = method.tableau
@@ -63,7 +62,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method describe the whole tableau, not the tableau of one substep.
+    # The proof, the file and the embedded method belong to the whole tableau. One substep has none of them.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -75,41 +74,41 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # ``before`` is a Number, so it is rounded only when the code is printed.
+        # A sum of objects of the class Number is rounded only when the code is printed.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Return the common tableau of the substeps, and the number gamma_k for each substep k.
+    """Return the common tableau of the substeps, and their lengths gamma_k in units of the step size.
 
-    Substep k has the length gamma_k h. The function finds the largest number of substeps with a common
-    tableau. The result is None if this number is one, or if the common tableau is explicit.
+    The function divides a step into as many substeps with a common tableau as possible. The result is None if
+    the step cannot be divided, or if the common tableau is explicit.
     """
-    # Coefficients may be balls, that is, enclosing intervals. Objects of the class Number can be compared,
-    # even if they are balls.
+    # A coefficient can be a ball, that is, an interval that contains the number. The class Number can
+    # compare balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # If k is a cut, the stages k, k + 1, ... are a step that starts from the result of the earlier stages. A
-    # section consists of the stages between two neighbouring cuts. A group consists of ``wide`` neighbouring
-    # sections.
+    # A cut is a stage before which the step can be divided. A section consists of the stages between two
+    # neighbouring cuts. A group consists of ``wide`` neighbouring sections.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # Small values of ``wide`` are tried first, because small groups of stages give the most substeps.
+    # Small groups give the most substeps, so small values of ``wide`` are tried first.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # The number of sections is a multiple of ``wide``, so the last group ends at the last cut.
+        # The number of sections is a multiple of ``wide``, so the last group is complete.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # A step with weights b_j advances the time by h sum_j b_j. Therefore the length gamma_k h of substep
         # k is h times the sum of the weights of its stages.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # If the weights of a group add up to zero, the group does not advance the time, so it is no substep.
+        # A group whose weights add up to zero does not advance the time, so it is no substep. In this case,
+        # larger groups are tried.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # ``scaled`` contains a tableau for each group k of stages: the coefficients of the group, divided by
-        # gamma_k. The stages of the group are a step of this tableau with step size gamma_k h.
+        # ``scaled`` contains one tableau for each group k: the coefficients of the group, divided by gamma_k.
+        # Substep k is a step of this tableau with the step size gamma_k h.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
@@ -118,7 +117,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages k, k + 1, ... are a step that starts where the earlier stages end."""
+    """Return True if a step can be divided into two substeps, the first with k stages."""
     s = len(b)
     # Lemma 3.5.4 of Bogfjellmo and Marthinsen has two conditions. If i >= k, stage i starts from the result
     # of the stages j < k, so a_ij = b_j. If i < k, stage i does not depend on the stages j >= k, so a_ij = 0.

@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 
 class Taylor(Lowering):
-    """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
+    """Taylor's method for y' = F(y) in R^n. The vector y contains the coordinates of the state.
 
-    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. On a manifold
-    other than R^n, the result is then projected onto the manifold. The projection changes the result by
-    O(h^(P+1)).
+    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. If the manifold
+    is not R^n, the value of the polynomial is projected onto the manifold. The projection changes the value
+    by O(h^(P+1)).
     """
 
     family = "taylor"
@@ -41,13 +41,13 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        The states are on the manifold if it is an open subset of R^n. Otherwise the projection at the end of
-        each step must map points near the manifold onto the manifold.
+        The result is True if the manifold is an open subset of R^n. For any other manifold, the result is
+        True if the projection maps points near the manifold onto the manifold.
         """
         return reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has run-time inputs, or if it has no formulas in coordinates.
+        """Return an objection if the scene has run-time inputs, or a field without formulas in coordinates.
 
         For all other scenes, the result is None.
         """
@@ -59,14 +59,14 @@ class Taylor(Lowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state."""
-        # The derived scene is stored, because deriving it takes time.
+        """Return the equation y' = F(y) for the coordinates of the state."""
+        # The equation is stored, because its derivation takes time.
         if "taylor" not in scene.derived:
             scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
         return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step: the Taylor polynomial is evaluated, and the result is projected."""
+        """Return the program of a step. It evaluates the Taylor polynomial and projects the value."""
         degree = self.conditions(method).degree_of_step()
         # ``y`` is the old state, and ``moved`` is the value of the Taylor polynomial. ``end`` is the
         # projection of ``moved`` onto the manifold.
@@ -87,7 +87,7 @@ class Taylor(Lowering):
     def degree(self, method: Method) -> int:
         """Return the degree of the Taylor polynomial.
 
-        MethodError is raised for step-size control with a degree below :data:`LEAST`.
+        MethodError is raised if the method has step-size control and the degree is less than :data:`LEAST`.
         """
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
