@@ -72,9 +72,9 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # The template has its own variables: f0, f1, ..., value1, value2, ..., array0, ... and term0, ...
+    # The template has its own variables: f0, f1, ..., value0, value1, ..., array0, ... and term0, ...
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
-    reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
+    reserved |= {f"value{i}" for i in range(max(len(step.evaluations), len(step.tables)) + 1)}
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
     # In the module, ``points`` is the array of grid points (the space coordinate), and ``t`` is the time.
     names = {"t": "t", step.space: "points"}
