@@ -17,7 +17,7 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Every round removes at least one map, so the loop ends.
     while True:
-        # Values that are no longer used must not count as readers in the next round.
+        # Unused operations are removed, because the next round counts which operations read a value.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return program
@@ -33,8 +33,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(arg)
         # If another operation also reads L(x), L(x) is computed in any case, and factoring saves nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Terms with the same linear map form a group. Every other term forms its own group, and the key of
-        # this group is the index of the term.
+        # Terms with the same linear map form a group. Every other term is alone in its group.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):

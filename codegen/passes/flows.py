@@ -54,7 +54,7 @@ def run(program: Program, scene: Problem) -> Program:
         # A flow whose duration is provably zero is the identity, so it is dropped.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # If no flow was joined or dropped, the old program is returned.
+    # If no flow was joined or dropped, the program is returned unchanged.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
@@ -71,29 +71,29 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
 
 
 def word(program: Program) -> list[Letter] | None:
-    """Return the flows of a program in order. If the program is no composition of flows, return None."""
+    """Return the flows of a program in order, or None if the program is not a composition of flows."""
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # A statement that is no assignment is a block of implicit equations.
+        # Every other statement is a block of implicit equations.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
         if isinstance(operation, Advance):
             continue
-        # In a composition, each flow starts from the state that the previous flow returned.
+        # Every flow of a composition starts from the result of the previous flow.
         if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # In a composition, the outputs are the state after the last flow.
+    # The outputs of a composition must be the state after the last flow.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that applies the flows ``letters`` in order.
 
-    The stage times are those of the old program.
+    The stage times are those of ``program``.
     """
     # Stage times depend on t alone, so they are computed before all flows. Another pass removes the stage
     # times that no flow reads.
@@ -118,15 +118,14 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # Flows that commute on the manifold of states may not commute at other points. Therefore the sample
-        # points are on this manifold.
+        # The sample points are on the manifold of states, because only there the flows must commute.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # The durations differ, because for equal durations both orders could agree by symmetry.
+        # With equal durations, the two flows could give the same state in both orders by symmetry.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -145,7 +144,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
     """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
 
-    Only parts that occur in ``letters`` are compared. The result is in the order of their first occurrence.
+    Only parts that occur in ``letters`` are considered. They are returned in order of first occurrence.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

@@ -44,8 +44,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # A stage at the start of the step has the time t + 0 h, which is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # A value counts as zero if the operation Zero defines it, and as the identity if the operation Identity
-    # defines it.
+    # Only results of the operations Zero and Identity count as zero and as the identity.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
@@ -56,8 +55,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is zero if one of its arguments is zero. Every other operation with ``linear_in_last`` returns
-    # zero if its last argument is zero.
+    # A map that is linear in its last argument is zero if this argument is zero. A Lie bracket is linear in
+    # both arguments.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)

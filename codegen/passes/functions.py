@@ -24,19 +24,18 @@ from codegen.scene.problem import Problem
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """For groups with closed forms, return the program with successive functions of ad_x combined."""
-    # Without closed forms, one combined function needs as many brackets as its factors together.
+    """Combine successive functions of ad_x, if the group has closed forms for products of such functions."""
+    # Without closed forms, combining functions saves no Lie brackets.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program in which one operation computes some products q exp(x) directly from q and x.
+    """Fuse some products q exp(x) of matrices: one operation computes the product directly from q and x.
 
-    This saves work if only one row of the matrix q exp(x) is needed. A product is changed if three conditions
-    hold:
-    - The product is a position at which the field in the body frame is evaluated.
-    - The product is not the new position.
-    - The field reads at most one row of the position.
+    This saves work if only one row of q exp(x) is needed. A product is fused if three conditions hold:
+    - The velocity or the force in the body frame is evaluated at the product.
+    - The product is not an output of the program.
+    - The formulas for velocity and force contain entries of at most one row of the product.
     """
     if scene.body is None:
         return program
@@ -44,7 +43,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # For a matrix group, ``names`` are the symbols of the matrix entries, row by row.
     side = round(len(names) ** 0.5)
-    # If the field reads entries in several rows of the position, the program is not changed.
+    # If velocity and force depend on several rows, no product is fused.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -52,7 +51,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # If the product is an output of the program, all its rows are needed, and it is not replaced.
+        # All rows of an output are needed, so a product that is an output is not fused.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -65,8 +64,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # The assignment applies f(ad_x) to v. If v = g(ad_y) w and x is a multiple of y, f and g are
-    # combined.
+    # The assignment computes f(ad_x) v. If v = g(ad_y) w and x is a multiple of y, f and g are combined.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -74,11 +72,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # From x = scale y follows f(ad_x) = f(scale ad_y). Thus f(ad_x) g(ad_y) is a function of ad_y.
+            # Because x = scale y, f(ad_x) = f(scale ad_y), and f(ad_x) g(ad_y) is a function of ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. Then f needs no
-    # operation of its own.
+    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
@@ -93,7 +90,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tuple[Var, ...]:
     word = simplified(word)
     if not word:
-        # All factors cancelled: the product is the identity.
+        # All factors cancel, so the combined function is the identity.
         return (v,)
     return rewriter.emit(Assign(assign.targets, AdSeries(word, v.kind is Kind.DUAL), (x, v)))
 
@@ -103,13 +100,13 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """If the program defines ``var`` as W(ad_y) v and x = s y, return (s, (y, W, v)). Otherwise return None.
+    """If ``var`` equals W(ad_y) v, where x = s y, return (s, (y, W, v)). Otherwise return None.
 
-    The function W is given as a product of factors, and s is a rational number. If several operations read
-    ``var``, the result is None.
+    The function W is a product of factors, and s is a rational number. If several operations read ``var``,
+    the result is None.
     """
     source = rewriter.definitions.get(var)
-    # If another operation also reads W(ad_y) v, it still needs this value. Then W would be evaluated twice.
+    # If several operations read W(ad_y) v, combining W with another function would not remove W(ad_y) v.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -121,8 +118,8 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Apply a function F(ad_x) to each term of the sum ``total``. Append the new sum and return its variable.
 
-    ``word`` contains the factors of F. ``parts`` describes each term W(ad_y) v of ``total`` by the entry
-    (s, (y, W, v)), where x = s y.
+    ``word`` contains the factors of F. Every term of ``total`` has the form W(ad_y) v with x = s y. Its entry
+    in ``parts`` is (s, (y, W, v)).
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -135,14 +132,14 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """If an assignment computes f(ad_x) v from its last argument v, return x and the function f.
+    """If an assignment applies f(ad_x) to its last argument, return x and the factors of f.
 
-    For all other assignments return None.
+    For all other assignments, return None.
     """
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
-        # Ad_g is a function of ad only if the program defines g as an exponential.
+        # Ad_g is a function of ad_x only if the program computes g = exp(x).
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), and the inverse map is exp(-ad_x). Likewise Ad*_{exp x} = exp(ad*_x).
@@ -153,14 +150,14 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if no such s is found."""
+    """Return the rational number s with x = s y, or None if the linear combinations show no such s."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations have the same keys. The keys of both dictionaries are sorted.
+    # Proportional linear combinations contain the same values and powers of h.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients equal one number s, then x = s y. Callers scale functions by s, and
-    # this requires a rational s.
+    # If all quotients of coefficients of x and y equal one number s, then x = s y. The factors of functions
+    # can be scaled only by rational numbers.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -168,7 +165,7 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
     """Return x as a linear combination of values that are not sums themselves.
 
-    The result maps the name of a value and a power of h to a coefficient. Its keys are sorted.
+    The result maps pairs (name of a value, power of h) to coefficients. Its keys are sorted.
     """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]
@@ -177,7 +174,7 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Nested sums are expanded, so that y = h xi/2 and z = h xi are recognised as multiples of xi.
+                # Expanding nested sums shows, for example, that y = h xi/2 is a multiple of z = h xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

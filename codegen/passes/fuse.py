@@ -21,8 +21,7 @@ def run(program: Program) -> Program:
             if (
                 source is not None
                 and isinstance(source.operation, Exp)
-                # If another operation also reads exp(x), exp(x) is needed in any case. Then fusing saves
-                # nothing.
+                # Fusing saves nothing if another operation needs exp(x), too.
                 and rewriter.uses[assign.args[0]] == 1
             ):
                 fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))

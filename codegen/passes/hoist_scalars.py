@@ -15,20 +15,20 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""All sums that contain a certain value, as pairs (index of the sum, quotient).
+"""The sums that contain a value, as pairs (index of a sum, quotient of coefficients).
 
-If the value has the coefficient c in this sum and c1 in the first of the sums, the quotient is c / c1.
+The quotient is c / c1. The value has the coefficient c in this sum and c1 in the first sum of the tuple.
 """
 
 
 def run(program: Program) -> Program:
     """Return the program with numbers moved out of linear maps and with nested sums expanded.
 
-    If several sums of a block contain multiples of one linear combination, this combination is computed once.
+    If several sums of an implicit block contain multiples of one linear combination, it is computed once.
     """
     while True:
-        # A sum that was expanded into another sum may be unused now. It is removed before the next round,
-        # which counts how often each value is read.
+        # The next round counts how often values are read. Sums that became unused are removed first, so
+        # that they do not count.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -43,8 +43,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(c x) becomes c L(x). For different numbers c, this gives several copies of L(x). The pass
-    # ``value_numbering`` merges these copies.
+    # L(c x) becomes c L(x). The pass ``value_numbering`` merges the copies of L(x) for different numbers c.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -73,38 +72,34 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which sums share linear combinations of values.
-
-    If several sums of a block contain multiples of one linear combination, this combination is computed once.
-    """
+    """Compute a linear combination once if several sums of an implicit block contain multiples of it."""
     builder = Builder({v.name for v in defined(program)})
-    # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
-    # step.
+    # Only implicit blocks are changed: iterations evaluate them several times in a step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # If values occur in the same sums with the same relative coefficients, their linear combination is
+    # Values with proportional coefficients in the same sums form a group. Their linear combination is
     # computed once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
         # ``places`` contains the coefficient of v in each sum. ``relative`` contains these coefficients
-        # divided by the first one. Two values with proportional coefficients have equal tuples ``relative``.
+        # divided by the first coefficient, so proportional coefficients give equal tuples.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs twice in one sum, with different powers of h, is skipped.
+        # A value that occurs in one sum with two powers of h has no single coefficient and is not shared.
         distinct = len({k for k, _ in places}) == len(places)
-        # A value is skipped if one of the quotients contains a negative power of h.
+        # A value is not shared if a later coefficient has a lower power of h than the first coefficient.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The common combination is computed without powers of h. Therefore the coefficients of its values in
-        # the first sum must have the same power of h.
+        # The shared linear combination contains no h. Therefore its coefficients in the first sum must have
+        # the same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -115,8 +110,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The old sums read the new sums ``totals``, so the assignments are sorted.
+    # The old sums read the new sums ``totals``, so the new sums must come first.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
-    # A common sum reads only values that the old sums read, so no cycle can arise.
+    # A new sum reads only values that the old sums read. Therefore no cycle arises, and an order exists.
     assert result is not None
     return result

@@ -2,13 +2,13 @@
 
 The pass is exact. Let P be the momentum of a stage. The velocity must be w = W P with a constant invertible
 matrix W. A block of implicit equations computes an unknown v of the stage in three steps:
-1. Invertible linear maps compute P from a momentum M.
+1. Invertible linear maps compute P from another momentum M.
 2. The velocity is w = W P.
 3. Further invertible linear maps compute v from w.
 
-The pass reverses these steps: it computes w from v, then P = W^{-1} w, then M. Forces are computed from these
-values, and the pass :mod:`codegen.passes.tearing` removes the forces from the unknowns. One equation remains
-for each v: both values of M, the given one and the one computed from v, must be equal. The function
+The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. Forces are computed
+from the new values, and the pass :mod:`codegen.passes.tearing` removes the forces from the unknowns.
+One equation remains for each v: the M of step 1 must equal the M that is computed from v. The function
 :func:`residuals` adds this equation to the block.
 """
 
@@ -27,7 +27,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Operations that are invertible linear maps of their last argument, if x in functions of ad_x is small."""
+"""Invertible linear maps of the last argument. Functions of ad_x are invertible if x is small."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum at which the path begins."""
+        """The momentum from which the path computes the unknown."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -68,12 +68,13 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # Rewriting the block for one path does not change the other paths, so all paths are found first.
+        # All paths are taken from the block before it is changed.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # The block solves the equation unknown = image. Later statements read the unknown, not the image.
+        # ``image`` maps every unknown to the right side of its equation. Both are equal at the solution, so
+        # later statements read the unknown.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -81,9 +82,9 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def residuals(program: Program, scene: Problem) -> Program:
-    """Return the program with residuals added to its blocks.
+    """Return the program with residuals added to its blocks of implicit equations.
 
-    A block gets residuals if the function :func:`path` finds a path for every unknown of the block.
+    A block gets one residual for each unknown if :func:`path` finds a path for all its unknowns.
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
     if scene.body is None or scene.body.inverse is None:
@@ -93,7 +94,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Newton's matrix must be square. Therefore a block needs one residual for each unknown, or none.
+            # Newton's matrix must be square, so a block needs residuals for all unknowns or for none.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -104,23 +105,22 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path that computes an unknown, or None if the block contains no such path."""
+    """Return the path that computes an unknown from a momentum, or None if no such path exists."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second argument of the assignment ``velocity`` is the momentum P of the stage. The maps ``inward``
-    # compute P from another momentum.
+    # The second argument of the velocity is the momentum P. The maps ``inward`` compute P from the base.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps that computes ``var``, and the assignment before the chain.
+    """Return the invertible linear maps that lead to ``var``, and the assignment that precedes them.
 
-    The maps are in order of application. The assignment computes the argument of the first map. If ``maker``
-    contains no such assignment, the second result is None.
+    The maps are in order of application. ``maker`` maps variables to their assignments. The second result is
+    None if ``maker`` contains no assignment for the argument of the first map.
     """
     maps: list[Assign] = []
     while True:
@@ -132,16 +132,13 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    # A multiplication by a number is invertible. A multiplication by h is not invertible if h = 0.
+    # Multiplication by a number is invertible. Multiplication by h is not, because h can be 0.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append an assignment that applies the inverse map to ``value``, and return its result.
-
-    The inverse map is the inverse of the map that ``assign`` applies.
-    """
+    """Append an assignment that applies the inverse of the map ``assign`` to ``value``. Return its result."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -155,10 +152,10 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute the values of a path backwards, from the unknown to the base.
+    """Append assignments that go back along a path: they compute the variables of the path from the unknown.
 
-    The result is a pair (dictionary, variable). The dictionary maps each old variable of the path to its new
-    variable. The second result is the new variable of the base.
+    Return a dictionary from the old variables of the path to the new variables, and the new variable of the
+    base.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -178,15 +175,15 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append the residual of the equation for the unknown of a path, and return its variable.
 
-    The residual is the difference of two values of one momentum: the value that the block contains, and the
-    value that is computed from the unknown.
+    The residual is the difference of two values of a momentum of the path. The path itself contains the first
+    value. The second value is computed from the unknown.
     """
     replaced, computed = _values(build, route)
-    # The maps between the momenta of a path are invertible, so the residual may compare any of these momenta.
-    # The default is the base.
+    # Invertible maps connect the base with the momentum P of the stage. Therefore the residual can use the
+    # base, P or a momentum between them. The default is the base.
     given = route.base
-    # Let the momentum of the stage be P = Ad*_{exp x} m, where m is a sum of terms f(ad*_x) v. Then P is also
-    # a sum of such terms, and the residual compares P.
+    # If P = Ad*_{exp x} m, and m is a sum of terms f(ad*_x) v, then P is also a sum of such terms. In this
+    # case, the residual uses P.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -197,7 +194,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 def _function_of_one(block: Solve, route: Path) -> bool:
     """Return True if the momentum of the stage is Ad*_{exp x} m, where m is a sum of terms f(ad*_y) v.
 
-    Each term has its own f, y and v. Every y must be proportional to x.
+    The terms can have different f, y and v, but every y must be a rational multiple of x.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -214,23 +211,22 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with new statements that compute the values of a path from its unknown.
+    """Return the block with new statements that compute the variables of a path from its unknown.
 
-    The statements that are not on the path read these new values.
+    The statements that are not on the path read the new variables.
     """
-    # A later pass removes the new values that no statement reads.
+    # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # If maps ``inward`` exist and the base is not an unknown, the block computes the base from other
-    # stages. Then statements that are not on the path still read the old variable of the base.
+    # A base that differs from P and is not an unknown is defined outside the path. It is not replaced.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The statements on the path are not changed: together with the base, they define the unknown.
+    # If the path itself read the new variables, its equation for the unknown would be trivial.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # ``sorted_body`` is None if the new statements create a cycle. Then the block is not changed.
+    # If the statements read each other in a cycle, no order exists, and the block is not changed.
     return block if sorted_body is None else replace(block, body=sorted_body)
