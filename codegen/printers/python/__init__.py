@@ -1,5 +1,5 @@
-"""The target Python: one module for each step.
+"""The target Python.
 
-A module in single precision or for a step on Fourier modes needs NumPy. The other modules need only the
+A module needs NumPy if it computes in single precision or with Fourier modes. Other modules need only the
 standard library.
 """

@@ -1,11 +1,10 @@
 """Prints functions (:mod:`codegen.run.language`) in Python.
 
-The printed functions change lists in place and return status codes. One assignment to several consecutive
-entries of a list is faster than an assignment to each entry. Therefore the printer combines assignments to
-consecutive entries.
+The printed functions change lists in place. One assignment to several consecutive entries of a list is
+faster than an assignment to each entry. Therefore the printer combines assignments to consecutive entries.
 
-Python raises an arithmetic error where C computes an infinity or a NaN. Therefore some functions have a
-guard. The guard is a ``try`` statement that converts the error to a status code or to NaNs.
+Python raises an arithmetic error where C computes an infinity or a NaN. A guard is a ``try`` statement
+that catches this error in a printed function. The result of the function is then a status code or NaNs.
 """
 
 from __future__ import annotations
@@ -38,9 +37,7 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""If a group has at least this number of assignments, one statement replaces the group. The assignments of a
-group read or write consecutive entries of one list.
-"""
+"""The smallest number of assignments that the printer combines into one statement."""
 
 
 class FunctionPrinter:
@@ -67,13 +64,13 @@ class FunctionPrinter:
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
-        """Return the body of the ``except`` clause for the guard of ``function``."""
+        """Return the body of the ``except`` clause of ``function``."""
         if function.guard == RAISES_STATUS:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
-        # Here the guard is RAISES_NAN, and the function has no return value. The function changes exactly one
-        # array.
+        # A function without a return value writes its result to one array. After an error, this array is
+        # filled with NaNs.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
 
@@ -82,7 +79,7 @@ class FunctionPrinter:
         rows = [[self.constants.text(x) for x in row] for row in table.rows]
         about = [f"# {table.about}"] if table.about else []
         if len(table.name.shape) == 1:
-            # Tables must not change, so a table is a tuple.
+            # A table is a tuple, because a tuple cannot change.
             return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
         lines = [*about, f"{table.name.text} = ("]
         for row in rows:
@@ -97,12 +94,12 @@ class FunctionPrinter:
         """
         if not shape:
             if kind is Kind.RECORD:
-                # A list comprehension evaluates this code once for each entry, so each entry is a new record.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # The operator ``*`` would repeat the same row or record. A comprehension creates new ones.
+            # The operator ``*`` would repeat one row or record. A comprehension creates a new object for each
+            # entry.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -166,9 +163,9 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the assignments at the beginning of ``body`` that form a group.
+        """Return the assignments at the beginning of ``body`` that one statement can replace.
 
-        The assignments of a group read or write consecutive entries of one list.
+        These assignments read or write consecutive entries of one list.
         """
         group: list[Assign] = []
         for statement in body:
@@ -176,17 +173,17 @@ class _Body:
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            # A group begins with a statement that reads or writes an entry of a list.
+            # The first assignment must read or write an entry of a list.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if ``group`` and ``statement`` together read or write consecutive entries of one list.
+        """Return True if one statement can replace the assignments of ``group`` and ``statement``.
 
-        If ``reading`` is True, the function tests whether the statements read consecutive entries. Otherwise
-        it tests whether they write consecutive entries.
+        If ``reading`` is True, the assignments must read consecutive entries of one list. If ``reading`` is
+        False, the assignments must write consecutive entries of one list.
         """
 
         def one(s: Assign) -> Term:
@@ -200,11 +197,11 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # All statements of a group must read or write the same list.
+        # All assignments must read or write the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A slice assignment computes all values before it changes the list. Therefore no value may depend on
-        # the list.
+        # A slice assignment computes all values before it changes the list. If a value depends on an entry
+        # that an earlier assignment changes, the value would be wrong.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -213,7 +210,7 @@ class _Body:
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
-        # If the group reads a whole list, the list is printed without a slice. A slice would copy the list.
+        # A slice copies the list. To read a whole list, the printer needs no slice.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -259,7 +256,7 @@ class _Body:
             yield from self.block(orelse, depth + 1)
 
     def condition(self, word: str, test: Term, depth: int) -> list[str]:
-        """Return the lines of ``word`` (``if``, ``elif`` or ``while``), the test and the colon."""
+        """Return the first lines of a branch or a loop. ``word`` is ``if``, ``elif`` or ``while``."""
         lines = indented(f"{word} ", self.terms.text(test).segments, depth)
         return [*lines[:-1], f"{lines[-1]}:"]
 
@@ -309,10 +306,10 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
-        # The template defines ``_sampled`` and ``_measured`` for ``sample`` and ``measure``.
+        # The template defines ``sample`` and ``measure`` under the names ``_sampled`` and ``_measured``.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # The names of called functions start with an underscore. The helper ``invert`` is an exception.
+        # Printed functions have a leading underscore. The helper ``invert`` has none.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 

@@ -24,7 +24,7 @@ _OWN = """
 """
 
 OWN = RESERVED | frozenset(_OWN.split())
-"""Names that the emitted module itself uses. Symbols of the scene get different names."""
+"""The reserved names of the emitted module. A parameter with a reserved name gets a different name."""
 
 
 def _constant(value: Number) -> str:
@@ -38,18 +38,18 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     """Return the emitted Python module, as a map from the name of its file to its text."""
     step = kernel.modes
     assert step is not None
-    # The template uses the variables f0, f1, ... for factors. It uses value1, value2, ... for values of the
-    # nonlinear part N.
+    # The emitted module has the variables f0, f1, ... for factors of the coefficients. It has the variables
+    # value1, value2, ... for values of the nonlinear part of the equation.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
     names: dict[str, str] = {"t": "t"}
-    # A formula is evaluated at all grid points at once, so the space coordinate is an array.
+    # Formulas are evaluated at all grid points at once. The array ``points`` contains the grid points.
     names[step.space] = "points"
     for name in (*interface.parameters, step.space, *(s for _, s in step.nonlinearity.inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
     write = ModeFormulas(step, STYLE, names, reserved)
     parameters = [names[p] for p in interface.parameters]
-    # If the scene has no value for a parameter, the argument has the default zero.
+    # A parameter without a default value in ``recipe`` gets the default zero.
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {
@@ -84,7 +84,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 CALLS = {"exp": "np.exp", PHI: "_phi1", BERNOULLI: "_bernoulli"}
-"""The Python names of functions of z, where z is h times an eigenvalue of the linear part L."""
+"""The Python names of the functions in the coefficients of a step."""
 
 
 def _functions(step: ModeStep) -> set[str]:

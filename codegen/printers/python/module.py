@@ -1,4 +1,4 @@
-"""Prints one step as a Python module.
+"""Prints one step of an integrator as a Python module.
 
 The module has the functions ``step`` and ``run``, and an exception for failures. The docstring of the module
 describes the method and the use of the module.
@@ -76,7 +76,7 @@ class _Module:
     @cached_property
     def constants(self) -> Constants:
         """The floating-point constants of the module."""
-        # Constants are global. A local variable with the name of a constant would hide the constant.
+        # A local variable with the name of a constant would hide the global constant.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
@@ -93,13 +93,13 @@ class _Module:
     @cached_property
     def parameters(self) -> list[str]:
         """The identifiers of the run-time parameters."""
-        # A parameter has the same name in the template and in the printed function ``run``.
+        # The public functions of the template use the same identifiers as the private function ``run``.
         names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 
     @cached_property
     def called(self) -> set[str]:
-        """The library functions that the module calls, with the names of :mod:`codegen.run.terms`."""
+        """The library functions that the module calls. The names are those of :mod:`codegen.run.terms`."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
         # The terms ``finite`` and ``infinity`` are not calls, but their text also needs imported names.
         names = {t.text for t in functions if t.op == "call"}
@@ -110,10 +110,9 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The names of library functions and the source texts of helper functions that the module needs."""
+        """The library functions and the helper functions that the module needs."""
         wanted = {*functions_of(self.unit)}
-        # Other code, such as step control, may call ``power`` and ``sqrt``. The function ``functions_of``
-        # does not find these calls.
+        # Step control and other code call ``power`` and ``sqrt`` in terms that ``functions_of`` ignores.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -142,7 +141,7 @@ class _Module:
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters for the argument list of a public function.
 
-        If the scene gives the values of all parameters, these values are the defaults.
+        If the recipe has default values for all parameters, the argument list contains these values.
         """
         known = self.recipe.defaults
         # If only some parameters had defaults, a parameter without a default could follow one with a default.
@@ -158,7 +157,7 @@ class _Module:
         time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
         optional = ["statistics=None"] if interface.blocks else []
         counted, rows = ["counted"] if interface.blocks else [], ["rows", "stride"]
-        # ``step`` receives input values and passes them to ``run`` as a function that is constant in time.
+        # ``step`` receives the values of the inputs, but ``run`` needs a function of time.
         given, held = self.keyword_arguments(), ["lambda t: inputs"] if inputs else []
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
@@ -224,12 +223,12 @@ class _Module:
             return None
         controlled = interface.controlled
         tolerances = ["rtol", "atol", "least", "greatest"] if controlled else []
-        # Only a run with step control has tolerances and bounds for the step size.
+        # Tolerances and bounds for the step size are options of step control.
         options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
         events = ["event=None", "stops=()"] if interface.events else []
-        # With step control, h = 0 means that the run chooses its first step size.
+        # With step control, h is the first step size. For h = 0, ``integrate`` chooses the first step size.
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
-        # ``integrate`` creates lists for events, and the private function ``_integrate`` fills them.
+        # ``integrate`` creates lists for the events. The private function ``_integrate`` fills these lists.
         buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
@@ -262,7 +261,7 @@ def keywords(arguments: list[str]) -> list[str]:
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of an example that runs the step from the scene's initial state."""
+    """Return the lines of an example that calls ``run`` with the initial state in ``recipe``."""
     precision = interface.format
 
     def number(x: float) -> str:

@@ -8,12 +8,12 @@ from typing import Protocol
 
 
 class LoadedModule(Protocol):
-    """An integrator that runs an emitted Python module."""
+    """An object that contains an emitted Python module and can make steps with it."""
 
     module: ModuleType
 
     def run(self, state: list[float], h: float, steps: int, t: float) -> object:
-        """Make ``steps`` steps of size ``h``. ArithmeticError is raised if a step fails."""
+        """Make ``steps`` steps of size ``h``. If a step fails, the method raises ArithmeticError."""
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
@@ -22,15 +22,14 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
-    # Each substep calls the emitted function ``_remember`` once. The second argument contains the unknowns.
+    # Each substep passes the solved unknowns to the emitted function ``_remember``, as the second argument.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
-    # The module looks up the global name ``_remember`` at each call. During this step, the name refers to
-    # ``observe``.
+    # During this step, ``observe`` replaces ``_remember``, and records the unknowns.
     vars(module)["_remember"] = observe
     try:
         integrator.run(list(state), h, 1, t)

@@ -1,8 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) in Python.
 
 In double precision, a real constant is printed as a literal. In single precision, a name such as ``C1`` is
-printed. The name refers to a float32 object of NumPy. A literal would be a Python float. The product of a
-float32 and a Python float may be a double.
+printed. The name refers to a float32 number of NumPy. A literal would be a Python float. Before NumPy 2, the
+product of a float32 number and a Python float is a double.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """The constants of a module.
+    """The real constants of a module.
 
     In single precision, ``digits`` maps the name of each constant to the text of its value. For example, it
-    maps ``C1`` to ``0.5``.
+    maps ``C1`` to ``0.5``. In double precision, constants have no names, and ``digits`` is empty.
     """
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
@@ -47,7 +47,7 @@ class Constants:
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
-            # Skip the names that are in use. For example, a parameter of the scene may have the name C1.
+            # A constant must not have the name of a variable. For example, a parameter could be called C1.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -68,8 +68,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The negation of ``a < b`` is printed as ``not a < b``. If ``a`` or ``b`` is a NaN,
-        # this expression is true, but ``a >= b`` is false.
+        # The negation of ``a < b`` is not ``a >= b``: both comparisons are false if ``a`` or ``b`` is a NaN.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
@@ -109,14 +108,14 @@ class Terms(Infix):
     def argument(self, term: Term) -> Text:
         """Return the text of a term with the operation ``given``, ``holding``, ``none`` or ``infinity``.
 
-        The operation ``given`` tests whether an optional argument is present. The operation ``holding``
-        returns a constant function of time.
+        - ``given`` tests whether the caller has passed an optional argument.
+        - ``holding`` creates a constant function of time.
+        - ``none`` is the argument of a call that omits an optional parameter.
         """
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
             case "holding":
-                # The printed function returns the same list at all times.
                 return Text((f"lambda t: {self.line(term.args[0])}",), CHOICE)
             case "none":
                 return Text(("None",))

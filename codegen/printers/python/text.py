@@ -17,7 +17,8 @@ def quoted(text: str) -> str:
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return ``start``, the ``terms`` separated by commas, and ``end``, on one line if possible.
 
-    If this line is too long, ``start`` is the first line, and ``end`` is the last line.
+    If this line is too long, ``start`` and ``end`` have lines of their own, and the terms are on the lines
+    between them.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
