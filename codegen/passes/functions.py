@@ -152,8 +152,9 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if the linear combinations show no such s."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional linear combinations contain the same values and powers of h.
-    if list(a) != list(b):
+    # Proportional linear combinations contain the same values and powers of h. If all terms cancel, x and y
+    # are zero, and s is not unique.
+    if not a or list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
     # If all quotients of coefficients of x and y equal one number s, then x = s y. The factors of functions
