@@ -12,16 +12,16 @@ from orderconds.errors import InputError
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """The headers and modules that emitted files or their examples include.
 
-No emitted file may have the name of one of these headers and modules.
+An emitted file must not have one of these names.
 """
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
     """Return the prefix SCENE_FAMILY_TABLEAU_ of the names in an emitted module.
 
-    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_. If the method
-    has a cut-off (:attr:`codegen.method.Method.cutoff`), this number follows the name of the family. An
-    example is ``free_rigid_body_rkmk2_rk4_``.
+    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_. The
+    cut-off of a method (:attr:`codegen.method.Method.cutoff`) follows the name of the family, as in
+    ``free_rigid_body_rkmk2_rk4_``.
     """
     family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name
@@ -34,11 +34,11 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return ``name`` with exactly one underscore at its end.
+    """Return ``name`` with one underscore at its end, even if ``name`` ends with several underscores.
 
-    InputError is raised if the result cannot be a prefix. The prefix must be an identifier. The prefix
-    without the underscore is the name of the Python module. This name must differ from the keywords of Python
-    and from the names of included headers and modules.
+    The prefix without the underscore is the name of the Python module. InputError is raised if ``name`` is
+    not an identifier that starts with a letter. InputError is also raised if the module would have the name
+    of a Python keyword, or of an included header or module.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(
@@ -50,7 +50,7 @@ def prefix_of(name: str, hint: str = "") -> str:
     module = name.rstrip("_")
     if keyword.iskeyword(module) or module in HEADERS:
         raise InputError(
-            f"the prefix {name!r} is a Python keyword, or the name of an included header or imported module",
+            f"the prefix {name!r} is reserved: a Python keyword, C header or Python module has this name",
             where="--prefix",
             expected="another name",
         )

@@ -1,4 +1,4 @@
-"""Reports of passes: the changes of each pass, and sentences for the header of emitted code."""
+"""Reports of the operations that each pass removes, also as texts for the header of emitted code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from codegen.ir.program import Program
 class Pass:
     """A pass over programs.
 
-    ``because`` is the reason why the pass can remove operations. It is printed in the header of emitted code.
+    ``because`` is a text in the header of emitted code. It says why the pass can remove operations.
     """
 
     name: str
@@ -43,24 +43,24 @@ class PassReport:
 
     @property
     def removed(self) -> dict[str, int]:
-        """The number of removed operations of each kind. It is negative if the pass added operations."""
+        """The number of removed operations of each kind, negative if the pass added operations."""
         before, after = self.before, self.after
-        # The names are sorted, so that reports do not depend on the order of the statements.
+        # With sorted names, reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
         return {n: k for n, k in change.items() if k}
 
     @property
     def savings(self) -> Counter[str]:
-        """The number of operations that the pass removed, for each name of an operation in reports."""
-        # The difference of two Counters contains only positive numbers, so added operations are omitted.
+        """The number of removed operations of each kind. The keys are the names of operations in reports."""
+        # The difference of two Counters omits negative numbers, so added operations are not counted.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
-    """Return a sentence for each reason why a step needs fewer operations, in the order of the passes.
+    """Return a text for each reason why passes removed operations, in the order of the passes.
 
-    If several passes remove operations for the same reason, their counts are added: ``2 brackets: the group
-    is abelian``.
+    An example is ``2 brackets: the group is abelian``. The number is the sum over all passes with this
+    reason.
     """
     total: dict[str, Counter[str]] = {}
     for report in reports:
@@ -79,6 +79,6 @@ def _counted(noun: str, n: int) -> str:
 def _nouns(program: Program) -> Counter[str]:
     """Return how often each operation occurs. The keys are the names of the operations in reports.
 
-    Operations without cost are omitted.
+    Operations that cost nothing have no name in reports and are omitted.
     """
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)

@@ -1,4 +1,4 @@
-"""Rewriting of programs, used by several passes: a rule keeps, replaces or removes each assignment."""
+"""Rewriting of programs for several passes. A rule keeps, replaces or removes each assignment."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment of a program.
 
-    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. To keep or
-    replace the assignment, a rule appends assignments with ``emit`` and returns their targets. To remove the
-    assignment, a rule returns existing variables.
+    ``rule(rewriter, assign)`` returns one variable for each target of the assignment. Later statements read
+    these variables instead of the targets. To keep the assignment, a rule returns ``rewriter.emit(assign)``.
+    To replace the assignment, a rule emits other assignments. To remove the assignment, a rule returns
+    existing variables.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -28,7 +29,7 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Only the old program is searched for uses. Assignments that a rule appends are not included.
+        # Only the old program is counted, without the assignments that a rule emits.
         self.uses = uses(self.program)
         # The name of a new variable must differ from all names in the program.
         self.builder.taken = {v.name for v in defined(self.program)}
@@ -37,7 +38,7 @@ class Rewriter:
         return replace(self.program, body=body, outputs=outputs)
 
     def now(self, var: Var) -> Var:
-        """Return the replacement of var, or var itself."""
+        """Return the variable that replaces ``var``, or ``var`` itself."""
         return self.names.get(var, var)
 
     def emit(self, assign: Assign) -> tuple[Var, ...]:
@@ -48,7 +49,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
-        # The arguments are replaced before the rule is called, so rules need not look up replacements.
+        # A rule receives the assignment with the arguments already replaced.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new
@@ -58,11 +59,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # The variables in ``starts`` are computed before the block, so they are replaced before the body.
+        # The start values are computed before the block, so their replacements are known here.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # The body computes ``images`` and ``residuals``, so these variables are replaced after the body.
+        # The body computes ``images`` and ``residuals``, so their replacements are known only here.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -85,7 +86,7 @@ def defined(program: Program) -> Iterable[Var]:
 
 
 def uses(program: Program) -> dict[Var, int]:
-    """Return how often each variable is read: by assignments, starts, images, residuals and outputs."""
+    """Return how often each variable is read by assignments, blocks and outputs."""
     count: dict[Var, int] = {}
 
     def add(variables: Iterable[Var]) -> None:
@@ -96,7 +97,6 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # A block reads its starts, images and residuals.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

@@ -56,14 +56,14 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        # Only groups with closed forms of functions of ad_x have the method ``series_sum``.
+        # A group has the method ``series_sum`` only if it has closed forms for functions of ad_x.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
         sums = self._groups(assign)
         if not sums:
             return None
-        # Each group of terms becomes one nested sum. All other terms are added at the end.
+        # Each group of terms becomes one nested sum. All other terms are added to these sums.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -82,8 +82,7 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads this term, the term is computed in any case. Then a nested form
-            # of the sum saves nothing.
+            # If another operation also reads v, v is computed in any case. A nested form would save nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -95,13 +94,13 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single term needs two brackets in any form, so groups with one term are omitted.
+        # Nesting saves no bracket of a single term, so groups with one term are omitted.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the sum of the terms ``members``, which form one group (:meth:`_groups`)."""
+        """Return the nested sum of ``members``, one of the groups of terms (:meth:`_groups`)."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -117,13 +116,13 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with every inner sum replaced by the terms of the inner sum.
+        """Return ``terms`` with all inner sums expanded.
 
-        If the result would have more terms than ``terms``, return ``terms``.
+        If the expansion has more terms, or none, return ``terms`` unchanged.
         """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # If v is a sum, its terms replace v. Fewer additions then depend on each other.
+            # If v is a sum, its terms replace v. This shortens the chains of dependent additions.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -132,22 +131,20 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # The sum is expanded only if the expansion adds no terms, because each additional term would cost a
-        # product.
+        # Each term costs a product, so the expanded sum must not have more terms.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
-    # A program may contain both c x and (-c) x. Both terms then use one product, in which the coefficient is
-    # positive. The minus sign turns an addition into a subtraction.
+    # A program may contain both c x and (-c) x. Both terms use the product with the positive coefficient.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
-    """Return a sum of multiples of vectors. Vectors with the coefficient 1 are added first."""
+    """Return the sum of c v over all pairs (c, v) in ``terms``. Pairs with c = 1 are added first."""
     total: tuple[Value, ...] | None = None
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)

@@ -1,7 +1,7 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
 The pass is exact. It is useful for commutator-free and Crouch-Grossman methods, which use both exp(x) and
-dexp*_{-x}. This pass is the last one, because other passes would multiply the factor -1 into the sum again.
+dexp*_{-x}. This pass is the last one. Other passes would undo it, because they multiply factors into sums.
 """
 
 from __future__ import annotations
@@ -17,12 +17,11 @@ Terms = frozenset[tuple[Coefficient, Var]]
 def run(program: Program) -> Program:
     """Return the program in which a sum is computed as the negative of an earlier sum, if possible.
 
-    Each block is searched separately, and so are the statements outside all blocks.
+    Each block is searched separately. The statements outside the blocks are searched together.
     """
     outside: dict[Terms, Var] = {}
     body = [
-        # A sum in one block must not refer to a sum in another block, so each block begins with an empty
-        # table.
+        # Each block begins with an empty table, so it reads no sums of other blocks.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]

@@ -1,8 +1,8 @@
-"""Apply a linear map L only once, if several sums contain the same linear combination of values L(x_k).
+"""Compute a linear combination of values L(x_k) once, if it occurs in several sums. L is a linear map.
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed numbers a_k.
-This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not
-change these terms. It requires that only one sum reads L(x_k).
+This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` changes
+only values L(x_k) that are read once.
 """
 
 from __future__ import annotations
@@ -27,16 +27,14 @@ is scaled such that the first coefficient is one.
 def run(program: Program) -> Program:
     """Return the program in which common combinations sum_k a_k L(x_k) are computed as L(sum_k a_k x_k)."""
     while True:
-        # A value formed in one round may be a term of a combination in the next round, so the search is
-        # repeated.
+        # The search is repeated, because the new values can form common combinations again.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            # Each round of the loop creates new objects ``wanted`` and ``values``. The default arguments
-            # store the objects of this round.
+            # The default arguments bind the objects of this round to the rule.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -72,8 +70,9 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations sum_k a_k L(x_k) that should be computed as L(sum_k a_k x_k).
 
-    Let n different values L(x_k) occur in m different combinations. The pass replaces n applications of L by
-    m applications. The combinations are returned only if m < n. Combinations of a single value are omitted.
+    Suppose that m different combinations contain n different values L(x_k) of one linear map L. The pass
+    applies L m times instead of n times, so the combinations are returned only if m < n. Combinations of a
+    single value are omitted.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -93,10 +92,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return the parts of a sum that consist of values L(x_k), one part for each linear map L.
+    """Return the parts of a sum that are combinations of values L(x_k), one part for each linear map L.
 
-    Each part is a factor times a linear combination (:data:`Share`). The result maps the linear combination
-    to the factor.
+    Each part is a factor times a scaled combination (:data:`Share`). The keys of the result are the scaled
+    combinations, and the values are the factors.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -105,11 +104,11 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value may occur in two terms with different powers of h. A combination contains each value only
-        # once, so these terms and all others with the same linear map are skipped.
+        # A combination contains each value once. If a value has two terms with different powers of h, all
+        # terms with this linear map are skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # The coefficient of the first term is divided out, so that proportional combinations become equal.
+        # All coefficients are divided by the first, so proportional combinations become equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

@@ -1,8 +1,8 @@
-"""Tearing: unknowns that can be computed directly from the other unknowns are removed with their equations.
+"""Tearing: remove unknowns that can be computed directly from the other unknowns.
 
 The pass is exact. The image of an unknown is the right-hand side of its fixed-point equation. If the image
-does not depend on the unknown itself, the pass replaces the unknown by its image. The pass begins with
-momenta and forces, so that velocities remain unknowns.
+does not depend on the unknown, the pass replaces the unknown by its image and removes the equation.
+Velocities are tried last, so they are more likely to remain unknowns than momenta and forces.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities come last in this loop, so that they remain unknowns. The start values of unknowns are
-        # extrapolated from earlier steps. The extrapolation is most accurate for velocities.
+        # Velocities come last, so they are more likely to remain unknowns. Extrapolation from earlier steps
+        # gives the start values of the unknowns, and it is most accurate for velocities.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -47,7 +47,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
     The result is None if the unknown cannot be replaced.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The only unknown of a block must remain. An unknown also remains if its image is an unknown.
+    # A block needs at least one unknown. An unknown is also kept if its image is an unknown.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -55,7 +55,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # If the image depends on the unknown itself, the new assignments have a cycle, and ``body`` is None.
+    # ``body`` is None if the image depends on the unknown.
     if body is None:
         return None
     kept = [
@@ -69,7 +69,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """Return the assignments in an order in which each value is defined before it is read.
 
-    The result is None if the assignments have a cycle.
+    The result is None if the assignments depend on each other in a cycle.
     """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []

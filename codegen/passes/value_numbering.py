@@ -1,7 +1,7 @@
-"""Value numbering: if an operation is applied to the same values several times, it is computed once.
+"""Value numbering: compute an operation once if it is applied to the same values several times.
 
-The pass is exact. The terms of a sum are sorted by the first appearance of their values, so that equal sums
-are recognised.
+The pass is exact. The terms of each sum are sorted by the first appearance of their values. Sums that differ
+only in the order of their terms become equal.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program in which every value is computed only once."""
+    """Return the program without repeated operations on the same values."""
     known: dict[tuple[Operation, tuple[Var, ...], str], tuple[Var, ...]] = {}
     rank: dict[Var, int] = {}
 
@@ -21,8 +21,8 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # The terms of a sum are sorted by the first appearance of their values. An order by name would change
-        # with the new names that passes introduce.
+        # The terms of a sum are sorted by the first appearance of their values, not by name. Passes introduce
+        # new names, so an order by name would change.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

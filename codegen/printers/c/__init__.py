@@ -1,2 +1,2 @@
-"""The target C: emitted C11 modules allocate no memory, have no global variables and cause no warnings. Every
-external name of a module starts with the prefix of the module."""
+"""Printers for C11. Emitted modules allocate no memory, have no global variables and cause no warnings. All
+external names of a module start with the prefix of the module."""

@@ -47,7 +47,7 @@ MANY = 20
 In a longer sequence, several statements share a line.
 """
 
-ONE_TEST = "If the sum is finite, all values x are finite. If it overflows, each x - x must be 0."
+ONE_TEST = "All values x are finite if their sum is finite, or if all differences x - x are 0."
 
 
 class FunctionPrinter:
@@ -58,7 +58,7 @@ class FunctionPrinter:
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # ``written`` searches all called functions, so each result is computed once and stored.
+        # ``written`` searches all called functions, so its results are stored.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
         self.packed = {f.name: packed(f, self.writes[f.name]) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
@@ -66,7 +66,8 @@ class FunctionPrinter:
     def called(self, name: str, near: bool = False) -> str:
         """Return the name of a function in C.
 
-        If ``near`` is true, return the name of the variant without branches (:mod:`codegen.run.batch`).
+        If ``near`` is true, return the name of the variant for arguments near zero
+        (:func:`codegen.run.batch.near`).
         """
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
@@ -76,9 +77,9 @@ class FunctionPrinter:
 
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
-        # Near zero, loops over lanes (the systems of a batch) or sites compute sines and cosines by
-        # polynomials. Scalar functions must have the same rounding errors, so they use the same polynomials.
-        # A module without loops over lanes or sites calls sin and cos of the C library.
+        # Loops over lanes (the systems of a batch) or sites use polynomials for sines and cosines near zero.
+        # All functions of a module with these loops use these polynomials, so all rounding errors agree.
+        # Other modules call sin and cos of the C library.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -101,8 +102,7 @@ class FunctionPrinter:
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
         const = "" if parameter.text in self.writes[function.name] else "const "
-        # A function that the user supplies is passed as two parameters: the function, and a pointer to the
-        # data of the user.
+        # A function of the user is passed as two parameters: the function and a pointer to its data.
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
@@ -115,7 +115,7 @@ class FunctionPrinter:
             size = f"[{promised}{parameter.shape[0]}]" if parameter.shape else ""
             return f"{const}{of} {name}{size}" if size else f"{const}{of} *{name}"
         kind = self.type_of(parameter.kind)
-        # Scalars are passed by value, so ``const`` would have no meaning for callers.
+        # Scalars are passed by value, so callers do not need ``const``.
         if not parameter.shape:
             return f"{kind} {name}"
         # An optional array is declared as a pointer without a size, because the caller may pass NULL. A size
@@ -127,9 +127,12 @@ class FunctionPrinter:
         return f"{const}{kind} {name}[{promised}{parameter.shape[0]}]"
 
     def head(self, function: Function, header: bool = False) -> list[str]:
-        """Return the lines of the head of a function, or of its prototype if ``header`` is true."""
-        # Private functions are static, because compilers can inline static functions. All names start with
-        # the prefix of the module, so one C file can contain the code of two modules.
+        """Return the lines with the type, name and parameters of a function.
+
+        If ``header`` is true, the lines are a prototype and end with a semicolon.
+        """
+        # Private functions are static, so other C files cannot call them. All names start with the prefix of
+        # the module, so one C file can contain the code of two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         # A function with many scalar parameters receives them in one array.
@@ -158,7 +161,7 @@ class FunctionPrinter:
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
         start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
-        # Tables are static const, so that compilers can replace an entry by its value.
+        # In a static const table, compilers can replace an entry by its value.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
@@ -205,7 +208,7 @@ class _Body:
     def lines(self) -> list[str]:
         """Return the lines of the body of the function."""
         whole = statements(self.function.body)
-        # The list ``whole`` also contains the statements inside loops and branches.
+        # ``whole`` includes the statements inside loops and branches.
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
@@ -214,25 +217,25 @@ class _Body:
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
         real, given = self.printer.real, self.printer.packed[self.function.name]
-        # Each packed parameter is copied to a local constant with the name of the parameter.
+        # Parameters that are passed in one array are copied to local constants.
         loads = [f"const {real} {self.identifiers.of(p)} = {PACKED}[{k}];" for k, p in enumerate(given)]
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of ``body``. More than MANY consecutive short statements share lines."""
+        """Return the lines of ``body``. More than MANY short statements in a row share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             before = self.before(statement)
             own = list(self.statement(statement))
             # Statements with sums do not share lines, because several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            # Declarations precede the statement. Each declaration ends a group of short statements.
+            # Declarations precede the statement, and no short statement shares a line with them.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars. Shared lines make the code shorter.
+            # Kernels with many unknowns copy hundreds of scalars. Several copies on a line shorten the code.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -241,8 +244,8 @@ class _Body:
 
         One declaration contains several variables if they are consecutive and have the same type.
         """
-        # In C, a variable that is declared inside a loop or branch exists only there. If later statements
-        # read a variable, its declaration precedes the loop or branch.
+        # In C, a variable exists only inside the loop or branch that declares it. If later statements read
+        # the variable, the declaration precedes the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -307,7 +310,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A comment precedes a test whether several numbers are finite. The test may be negated.
+        # In the C code, a comment explains the test that several numbers are finite, with or without "not".
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -465,7 +468,7 @@ class _Body:
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
-        # After the arguments for ``parameters``, the list ``given`` contains pointers to the results.
+        # After the arguments, ``given`` may contain pointers to the results.
         others += given[len(parameters) :]
         # An existing array that begins with ``values`` is passed without a copy.
         array = whole(values, others)
