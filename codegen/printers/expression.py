@@ -1,6 +1,6 @@
-"""Prints expressions as infix text with few parentheses. Printing does not change the rounding errors.
+"""Prints expressions as infix text with few parentheses.
 
-An expression is rewritten only if no bit of its result in IEEE arithmetic changes. For example,
+In IEEE arithmetic, the printed text has the same result as the expression, bit for bit. For example,
 ``a + (-b)`` is printed as ``a - b``, and ``-a + b`` as ``b - a``. Sums and products are never regrouped.
 """
 
@@ -35,9 +35,9 @@ class Rendering:
 
 
 def number(value: Number) -> str:
-    """Return the text of a constant. The constant is rounded once to a double.
+    """Round a constant to the nearest double, and return the double as text.
 
-    The text is the shortest decimal text from which a compiler obtains exactly this double.
+    The text is the shortest decimal text that a compiler converts to the same double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
@@ -60,19 +60,17 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Powers must
-    be squares or cubes of symbols (see :mod:`codegen.kernel.schedule`). A power of another expression, or
-    with an exponent above 3, raises ValueError.
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. Only
+    squares and cubes of symbols are allowed as powers (see :mod:`codegen.kernel.schedule`). Other powers
+    raise ValueError.
     """
-    # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
-    # loop.
+    # For deeply nested expressions, a recursive function would exceed Python's recursion limit.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The text of a constant has no sign. The sign is stored separately, because a sum may print
-                # the sign as the operator ``-``.
+                # The sign is stored separately, because a sum may print the sign as the operator ``-``.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
@@ -89,16 +87,15 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # ``a * (b * c)`` is printed as ``b * c * a``, which needs no parentheses. Multiplication in
-                # IEEE arithmetic is commutative, so the result is the same. A constant factor stays in
-                # front: ``2.0 * (b * c)`` keeps its parentheses.
+                # Multiplication in IEEE arithmetic is commutative. Therefore ``a * (b * c)`` is printed as
+                # ``b * c * a`` without parentheses. Constants stay in front, as in ``2.0 * (b * c)``.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
                 rendered[node.id] = _product(args[0], "/", args[1])
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
-                    raise ValueError("the printer accepts only squares and cubes of symbols")
+                    raise ValueError("a power must be the square or the cube of a symbol")
                 # Results of ``pow`` in different languages may differ in the last bit, so powers are printed
                 # as products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
@@ -110,12 +107,12 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
 
 
 def signed(x: Rendering) -> tuple[str, ...]:
-    """Return the segments of ``x`` with its sign. The negative of a sum is printed as ``-(a + b)``."""
+    """Return the segments of ``x`` with its sign. A sum with a minus sign is printed as ``-(a + b)``."""
     if not x.negative:
         return x.segments
     if x.precedence == SUM:
         return (f"-({x.text})",)
-    # The sign of a product is printed before its first factor.
+    # A product with a minus sign is printed as ``-a * b``.
     return (f"-{x.segments[0]}", *x.segments[1:])
 
 

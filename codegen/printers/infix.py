@@ -1,6 +1,8 @@
 """Prints terms (:mod:`codegen.run.terms`) as infix text with parentheses and line breaks.
 
-Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
+Operations are never regrouped. Parentheses are omitted only if the precedence of operators allows it, as in
+``a * b + c``.
+
 Target languages have different notations for some operators and functions. Subclasses of :class:`Infix`
 define these notations.
 """
@@ -48,14 +50,14 @@ class Text:
 
 def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
     """Return the segments with ``start`` added to the first one and ``end`` added to the last one."""
-    # A single segment is the first and the last one.
+    # A single segment gets both ``start`` and ``end``.
     if len(segments) == 1:
         return (f"{start}{segments[0]}{end}",)
     return (f"{start}{segments[0]}", *segments[1:-1], f"{segments[-1]}{end}")
 
 
 SHORT, LONG = 48, 80
-"""A text of at most this length stays on one line. SHORT is for operands, LONG for comparisons."""
+"""Operands of at most SHORT characters and comparisons of at most LONG characters stay on one line."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
@@ -101,7 +103,7 @@ class Infix(ABC):
         # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
         # the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
-        # A line may break before an operator, but a short right operand stays on one line.
+        # A line may break before an operator. A short right operand has no line break.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)
 

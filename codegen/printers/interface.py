@@ -1,7 +1,7 @@
-"""The calling convention of an emitted module: prefix, arguments, state size and implicit equations.
+"""The calling convention of an emitted module: its functions and their arguments.
 
-The header of an emitted module describes the convention for users. The loader of emitted modules reads the
-convention from the manifest of the module.
+The header of the module describes the convention for users. The loader reads the convention from the manifest
+of the module.
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples. In JSON they are lists."""
 
 LATTICE = ("dimension", "workspace")
-"""The fields of :class:`Interface` that describe a lattice."""
+"""The fields of :class:`Interface` that the manifest contains only for a lattice."""
 
 MODES = ("modes",)
-"""The fields of :class:`Interface` that describe a step on Fourier modes."""
+"""The fields of :class:`Interface` that the manifest contains only for a step on Fourier modes."""
 
 RUN = ("integrated", "controlled", "events", "dense")
-"""The fields of :class:`Interface` that describe runs to a given end time."""
+"""The fields of :class:`Interface` that the manifest contains only for runs to a given end time."""
 
 
 @dataclass(frozen=True)
 class Interface:
     """The calling convention of one module.
 
-    - ``prefix`` is the first part of every external C name, with an underscore at the end.
+    - ``prefix`` is the beginning of every external C name. It ends with an underscore.
     - ``size`` is the number of coordinates of a state.
-    - ``time`` is True if the step reads t.
+    - ``time`` is True if the time t is an argument of the step.
     - ``parameters`` are the run-time parameters in the order of the arguments.
     - ``inputs`` are the names of the run-time inputs, which are functions of time.
     - ``blocks`` are the labels of the blocks of implicit equations.
@@ -49,7 +49,7 @@ class Interface:
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
     - ``workspace`` is the number of rows of the workspace. The workspace is an array for intermediate
       values on a lattice.
-    - ``modes`` is True for a step on Fourier modes. The state is then an array of any length.
+    - ``modes`` is True for a step on Fourier modes. The caller then chooses the length of the state.
     """
 
     prefix: str
@@ -82,25 +82,25 @@ class Interface:
         The time t and the parameters are arguments only if the kernel reads them.
         """
         used = kernel.used_scalars()
-        # Run-time inputs are functions of time, so a step that reads inputs has the argument t.
+        # Run-time inputs are functions of the time t, so a kernel with inputs reads t.
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,
-            # For a lattice this is the number of coordinates of one site.
+            # For a lattice, ``size`` is the number of coordinates of one site.
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Simplification may remove parameters from the kernel. The remaining parameters are arguments.
+            # Parameters that simplification removed are not in ``used``, so they are not arguments.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # The kernel ``vary`` has one output for each row of the Jacobian.
+            # ``kernel.vary`` computes a column of the Jacobian. Each output is the entry in one row.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
             integrated=kernel.observed is not None,
-            # Step control needs an error estimate from the kernel.
+            # In runs to a given end time, step-size control needs an error estimate.
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
             dense=_order_of_extension(kernel),
@@ -111,12 +111,12 @@ class Interface:
 
     @property
     def format(self) -> Precision:
-        """The floating-point format of all numbers of the module."""
+        """The floating-point format with the name ``precision``."""
         return precision(self.precision)
 
     @property
     def newton(self) -> bool:
-        """True if Newton's method solves a block of implicit equations."""
+        """True if Newton's method solves at least one block. The simplified Newton method does not count."""
         return NEWTON in self.solvers
 
     @property
@@ -125,11 +125,10 @@ class Interface:
         return self.prefix.removesuffix("_")
 
     def as_json(self) -> dict[str, Any]:
-        """Return the interface as plain data for the manifest. :meth:`from_json` reads these data."""
+        """Return the interface as JSON data for the manifest."""
         # JSON has no tuples, so tuples become lists.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # The fields of three features are omitted if the module does not have the feature. These features are
-        # runs to a given end time, lattices and Fourier modes.
+        # Fields that the module does not use are omitted (see RUN, LATTICE and MODES).
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}

@@ -15,8 +15,8 @@ from codegen.printers.expression import Style, render
 class Lines:
     """The text of a formula with several outputs.
 
-    ``assignments`` are pairs of a name and the text of its value, in the order of evaluation. The texts in
-    ``outputs`` may contain these names.
+    ``assignments`` contains the pairs (variable, text of its value) in the order of evaluation. The texts in
+    ``outputs`` may contain these variables.
     """
 
     assignments: tuple[tuple[str, str], ...]
@@ -28,7 +28,7 @@ class ModeFormulas:
     """Writes the formulas of a step on Fourier modes.
 
     - ``style`` is the notation of constants and function names in the target language.
-    - ``names`` maps symbols of the scene to identifiers.
+    - ``names`` maps symbols, such as parameters, to identifiers of the target language.
     - ``reserved`` contains identifiers that are not available for intermediate variables.
     """
 
@@ -38,37 +38,37 @@ class ModeFormulas:
     reserved: Collection[str]
 
     def lines(self, kernel: Kernel, **more: str) -> Lines:
-        """Return the formulas of a kernel as text. ``more`` maps further symbols to identifiers."""
+        """Return the formulas of a kernel as text. ``more`` is added to ``names``."""
         arranged = arrange(kernel)
         names = {**self.names, **more}
         taken = {*self.reserved, *names.values()}
         assignments = []
         for statement in arranged.statements:
-            # The formulas call scalar functions only, so every statement assigns a single value.
+            # The formulas call only functions with one result, so each statement assigns one value.
             assert isinstance(statement, Assignment)
             # If the name is reserved or already in use, underscores are appended to it.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # The outputs may contain variables of the assignments. Now ``names`` contains all these variables.
+        # Outputs may contain assigned variables. At this point ``names`` contains all of them.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
         """Return the text of a factor, such as ``exp(z)``.
 
-        Here z is the step size times an eigenvalue of the linear part L of the equation. The function
-        ``call`` returns the text of a function call. It receives the function name and the text of z.
+        Here z is the step size times an eigenvalue of the linear part of the equation.
+        ``call(name, argument)`` returns the text of a function call.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the formula for a coefficient of the step at one Fourier mode.
+        """Return the formula that computes a coefficient of the step for one Fourier mode.
 
-        The variables ``f0``, ``f1``, ... contain the values of the functions in ``step.factors``.
+        In the formula, ``f0``, ``f1``, ... are the values of the functions in ``step.factors``.
         """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
@@ -77,28 +77,28 @@ class ModeFormulas:
             factors = [number[f] for f, n in monomial for _ in range(n)]
             text = self.style.constant(value)
             minus, size = text.startswith("-"), text.removeprefix("-")
-            # The coefficient 1 is not printed if factors follow.
+            # The number 1 is not printed before other factors.
             unit = value.is_one or value.is_minus_one
             shown = " * ".join([*([] if unit and factors else [size]), *factors])
             words.append(
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
-        # The coefficient of the old state has no factor h.
+        # Coefficients of the old state have no factor h.
         if not table.power:
             return inner
-        # The coefficients of the nonlinear part have the factor h.
+        # Coefficients of values of the nonlinear part have the factor h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the array in ``term``.
+        """Return the name of the array that ``term`` multiplies by a coefficient.
 
-        The array contains Fourier coefficients, either of the old state or of the nonlinear part.
+        The array contains the Fourier coefficients of the old state, or of a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time at which evaluation ``number`` of the nonlinear part takes place.
+        """Return the text of the time of evaluation ``number`` of the nonlinear part.
 
         ``start`` is the text of the time at which the step begins.
         """

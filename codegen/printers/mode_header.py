@@ -1,4 +1,4 @@
-"""The header of a module for a step on Fourier modes."""
+"""The header comment of a module for a step on Fourier modes."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from codegen.printers.recipe import Recipe, header
 
 
 def mode_header(kernel: Kernel, recipe: Recipe, width: int) -> list[str]:
-    """Return the lines of the header that precede the usage example."""
+    """Return the lines of the header comment, without the usage example."""
     step = kernel.modes
     assert step is not None
-    # The state is one array, whose length n is known only at run time.
+    # The state is an array. Its length n is known only at run time.
     (state,) = kernel.state
     layout = [f"n {state.meaning}; n is even"]
     return header(recipe, layout, step.explanation(), width)

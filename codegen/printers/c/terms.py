@@ -28,11 +28,11 @@ from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
 FUNCTIONS = {"abs": "fabs", "power": "pow"}
-"""Library functions that have another name in C."""
+"""The C names of functions that have another name in terms."""
 
 
 def literal(precision: Precision, x: float) -> str:
-    """Return a number of the format ``precision`` as a C literal."""
+    """Return the number ``x`` as a C literal in the format ``precision``."""
     return precision.text(x) + precision.suffix
 
 
@@ -40,7 +40,7 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
     """Return the conventions of C for constants and function names, such as ``0.5f`` and ``sqrtf``.
 
     Names of functions outside the mathematical library start with ``prefix``. ``forms`` maps the name of a
-    function to the name of the variant that is called. For example, a variant may have no branches.
+    function to the name of the variant that the code calls, for example a variant without branches.
     """
 
     def called(name: str) -> str:
@@ -57,7 +57,7 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 class Terms(Infix):
     """Writes the terms of one function in C.
 
-    C passes records as pointers. ``pointers`` contains the names of the parameters that are records.
+    ``pointers`` contains the names of the parameters that are records. C code receives pointers to them.
     ``tables`` contains the names of the constant arrays of the module.
     """
 
@@ -91,9 +91,10 @@ class Terms(Infix):
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the texts of two tests. All values are finite if and only if at least one test is true."""
         # The first test checks whether the sum of all values is finite. This test is fast, but a sum of
-        # finite values may overflow. The second test adds the differences x - x, so it has no overflow.
+        # finite values may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
-        # x - x is 0 for a finite x, and NaN for an infinity or a NaN.
+        # The second test has no overflow: it adds the differences x - x. The sum is 0 if all x are finite.
+        # For an infinity or a NaN, x - x is a NaN.
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
         return finite, (*self.text(differences).segments, f"== {zero}")
@@ -107,7 +108,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # The expression may be a sum, so SUM is the safe choice of the precedence.
+                # The expression may be a sum. With the level SUM, it gets parentheses inside a product.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -125,7 +126,7 @@ class Terms(Infix):
                 return self.converted(term)
             case "holding":
                 # Run-time inputs are passed as a function and a pointer to its data. For constant inputs, the
-                # emitted function ``hold`` copies the values.
+                # function is ``hold``, and the data are the values of the inputs.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -135,8 +136,8 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A function that the user supplies is printed as two arguments."""
-        # C has no closures, so the second argument is a pointer to the data of the function.
+        """Return the text of a name. After a function of the user, a pointer to its data is printed."""
+        # C has no closures, so the user passes the data of the function separately.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -196,7 +197,7 @@ class Terms(Infix):
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
-        """Return the text of a test that is true if all values are finite."""
+        """Return the text of the test whether all values are finite."""
         first = values[0]
         # For an array, the emitted code calls a helper function, which tests the entries in a loop.
         if first.shape:

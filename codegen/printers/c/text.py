@@ -39,17 +39,16 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return the text for a C comment. ``*/`` is replaced by ``* /``, and ``/*`` by ``/ *``."""
-    # Compilers warn about ``/*`` inside a comment.
+    """Return ``text`` with ``*/`` replaced by ``* /``, and ``/*`` by ``/ *``, for use in a C comment."""
+    # ``*/`` would end the comment. Compilers warn about ``/*`` inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
     """Return the lines of a C comment that contains ``text``. The list is empty if ``text`` is empty."""
     safe = comment(text)
-    # Words are never broken, so that a shell command in the text can be copied.
+    # Words are never broken, because users copy shell commands from the text.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
-    # A comment of one line begins and ends on this line.
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
     return ["/*", *(f" * {line}" for line in lines), " */"]
@@ -68,7 +67,7 @@ def fill(
     """
     lines = [start]
     for position, segment in enumerate(segments):
-        # The last segment and ``end`` are on the same line, so the line must have space for both.
+        # ``end`` is on the line of the last segment, so this line must have space for both.
         tail = end if position == len(segments) - 1 else ""
         # The caller indents the lines later, so 8 characters of the width stay free.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
@@ -79,7 +78,7 @@ def fill(
 
 
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
-    """Return lines that contain the statements. As many statements as possible share a line.
+    """Return lines that contain the statements. Each line contains as many statements as fit.
 
     ``width`` limits the length of a line after the caller has indented it.
 
