@@ -143,7 +143,10 @@ def test_the_ratio_of_two_combinations_is_rational_or_none():
     u = b.lin("u", Kind.ALG, [(HALF, x), (WHOLE, y)])
     v = b.lin("v", Kind.ALG, [(MINUS, y), (Coefficient(Number.rational(-1), 1), x)])
     w = b.lin("w", Kind.ALG, [(HALF, x), (HALF, y)])
+    zero = b.lin("zero", Kind.ALG, [(WHOLE, x), (MINUS, x)])
+    none = b.lin("none", Kind.ALG, [(HALF, u), (MINUS, u), (HALF, u)])
     definitions = {a.targets[0]: a for a in b.body}
+    assert functions.ratio(definitions, zero, none) is None
     assert functions.ratio(definitions, v, u) == Fraction(-2)
     assert functions.ratio(definitions, w, u) is None
     assert functions.ratio(definitions, x, u) is None
