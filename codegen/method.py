@@ -41,11 +41,11 @@ class Method:
     """A family with a tableau, and with a cut-off if the family has one.
 
     - ``coefficients`` is the tableau, or None for a family without tableau.
-    - ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. For a family without tableau,
-      it is the number in the label, such as 12 in ``taylor(12)``.
+    - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
+      family without tableau, ``cutoff`` is the number in the label, such as 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
-    - ``step`` is the name of a step y1 = M y0. The scene defines the matrix M by a formula. A method with a
-      step of this form has no tableau. For all other methods, ``step`` is ''.
+    - ``step`` is the name of a step y1 = M y0, where the scene defines the matrix M by a formula. A method
+      with a named step has no tableau. For all other methods, ``step`` is ''.
     """
 
     family: str
@@ -82,7 +82,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        """The name of the tableau or of the scene's step. It is '' for a family without tableau."""
+        """The name of the tableau or of the scene's step, or '' if the method has neither."""
         return self.step if self.coefficients is None else self.coefficients.name
 
     @property
@@ -97,11 +97,11 @@ class Method:
 
     @property
     def ring(self) -> Ring:
-        """The ring of the coefficients. For a method without a tableau, the ring is QQ."""
+        """The ring of the coefficients. For a method without a tableau, it is the rational numbers QQ."""
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return the coefficient x as a :class:`Number`. The ring of a rational number is QQ."""
+        """Return the coefficient x as a :class:`Number`. If x is rational, the ring of the result is QQ."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -111,7 +111,7 @@ class Method:
     def runge_kutta(self) -> RungeKutta:
         """Return the tableau as a Runge-Kutta method with the matrix A and the weights b.
 
-        :class:`MethodError` is raised for a tableau without A and b.
+        :class:`MethodError` is raised if the tableau does not define a Runge-Kutta method.
         """
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
@@ -152,16 +152,16 @@ class Method:
         the step size without an embedded method. :class:`MethodError` is raised if a needed embedded method
         does not exist.
 
-        The embedded method uses the same stages with other weights. The stages must therefore not depend on
-        the weights. Methods of the family ``rkmk`` without a cut-off use the fewest brackets. The choice of
-        these brackets depends on the weights, so these methods have no embedded method.
+        An embedded method has the same stages and other weights. The stages must therefore not depend on the
+        weights. For a method of the family ``rkmk`` without a cut-off, the compiler chooses the brackets in
+        the stages. This choice depends on the weights, so the method has no embedded method.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
-            # With steps of different sizes, symplectic and variational methods do not conserve their modified
-            # energy. Step-size control is therefore not useful for these methods.
+            # Variable step sizes destroy the good long-time energy behaviour of symplectic and variational
+            # methods. Step-size control is therefore not useful for these methods.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -185,8 +185,7 @@ class Method:
     def abscissae(self) -> tuple[Element, ...]:
         """Return the abscissae c_i of the stages.
 
-        If the method consists of products of exponentials, c_i is the sum of all coefficients in the
-        exponents of stage i.
+        If stage i is a product of exponentials, c_i is the sum of all coefficients in the exponents.
         """
         return self.commutator_free().as_runge_kutta(self.ring).c
 
@@ -203,7 +202,7 @@ def _file(name: str) -> Path:
 def _enclosed(tableau: Tableau) -> Tableau:
     """Return the tableau with balls (small intervals) instead of decimal coefficients.
 
-    A tableau file may contain a proof that exact coefficients exist near the decimals. Each ball contains the
+    A tableau file may contain a proof that exact coefficients exist near the decimals. Each ball contains an
     exact coefficient. A tableau without a valid proof is returned unchanged.
     """
     if tableau.proof is None:
@@ -221,7 +220,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families that allow embedded methods. Their stages do not depend on the weights."""
+    """Return the families with embedded methods. In these families, no stage depends on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -237,7 +236,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
             expected=f"one of {', '.join(families)}",
         )
     number = None if match["number"] is None else int(match["number"])
-    # The family raises an InputError if the number is missing or out of range.
+    # The next line raises an InputError if the number in the label is missing or out of range.
     get(text.strip()).degree_of_step()
     return Method(match["family"], None, number)
 
@@ -266,12 +265,12 @@ def _unclaimed(
 ) -> UnclaimedTableau:
     """Return the error for a tableau that claims no order in the families ``readable``.
 
-    These families can use the format of the tableau.
+    The families ``readable`` can use the format of the tableau.
     """
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # For a family with a cut-off, the hint contains a label with a cut-off. The parser would refuse a label
-    # without a cut-off.
+    # Without a claimed order, the parser cannot choose a cut-off. If the family has a cut-off, the hint
+    # therefore contains one.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
@@ -329,7 +328,7 @@ def _library() -> Iterator[Tableau]:
 
 @cache
 def _of_library(name: str) -> Tableau:
-    # Loading all tableaux takes half a second. The search for an example reads them once for each family.
+    # Loading all tableaux takes half a second. The search for an example may need them for several families.
     return Tableau.load(find(name))
 
 
@@ -337,8 +336,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
     """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
 
     ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
-    family in which the tableau is used. If no family is given, the family with the highest claimed order
-    is chosen. If a given :class:`Tableau` claims no order, the orders are computed.
+    family in which the tableau is used. If neither ``family`` nor the text names a family, the family with
+    the highest claimed order is chosen. If a given :class:`Tableau` claims no order, the orders are computed.
     """
     if isinstance(given, Method):
         return given
@@ -362,8 +361,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
     """Compute the order of the tableau in each suitable family, and yield the orders as claims.
 
-    The orders follow from the order conditions. The family ``rkmk`` has one claim for each small cut-off,
-    such as ``rkmk(1)``. If ``family`` is not empty, only claims for this family are computed.
+    The orders follow from the order conditions. The family ``rkmk`` has claims for several cut-offs, such as
+    ``rkmk(1)``. If ``family`` is not empty, only claims for this family are computed.
     """
     from orderconds.checking import check, claimable_families
 
@@ -396,10 +395,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    A missing cut-off is chosen by the highest claimed order. Among cut-offs of equal order, the smallest is
-    chosen. The family ``rkmk`` has an exception: explicit tableaux with exact coefficients and a claimed
-    order of at most 6 get no cut-off. The compiler searches for the smallest number of brackets
-    that preserves the order of the tableau.
+    If the family needs a cut-off and the text contains none, the cut-off with the highest claimed order is
+    chosen. Among cut-offs of equal order, the smallest is chosen.
+
+    The family ``rkmk`` has an exception. If the tableau is explicit with exact coefficients, and the claimed
+    order is at most 6, no cut-off is chosen. The compiler then searches for the fewest brackets that preserve
+    the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
     family. It is also raised if the claims of the tableau do not determine a missing family or cut-off.
@@ -442,15 +443,14 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
-    # A step of a commutator-free tableau is a product of exponentials. The sums of its coefficients over the
-    # exponentials define a Runge-Kutta method. The tableau may claim the order of this Runge-Kutta method for
-    # the family rk. The next line ignores this claim.
+    # The sums of the coefficients of a commutator-free tableau over the exponentials define a Runge-Kutta
+    # method. A claim for the family rk is the order of this Runge-Kutta method, and is therefore ignored.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # The family of a claim may be ``splitting(3)``, for example. The next line removes the "(3)".
+    # A claim may name a family with a number, such as ``splitting(3)``. The comparison needs no number.
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

@@ -30,8 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # The compiler prefers variational families, because Hamiltonian scenes are usually integrated over long
-    # times. Symplectic methods then usually have smaller errors than other methods of equal order.
+    # Hamiltonian scenes are often integrated over long times. Symplectic methods then usually have smaller
+    # errors than other methods of equal order. The compiler therefore prefers variational families.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -63,8 +63,8 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # A weight may be a ball (an interval) that contains zero. Division by this ball is not defined, and
-        # ``is_zero`` returns None.
+        # If a weight is a ball (an interval) that contains zero, ``is_zero`` returns None. The program cannot
+        # divide by such a ball.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -82,8 +82,8 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # The compiler can search for the fewest brackets only in dexp^{-1}. A variational program also
-        # contains the dual and the derivative of the truncated series, so the user chooses the cut-off.
+        # A search for the fewest brackets exists only for dexp^{-1}. A variational step also needs the dual
+        # and the derivative of the series, so the user must choose the cut-off.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
@@ -119,7 +119,7 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def images(self) -> list[Var]:
-        """Append the operations of one iteration, and return the new values of the unknowns."""
+        """Append the operations of one fixed-point iteration, and return the new values of the unknowns."""
 
     @abstractmethod
     def starts(self) -> list[Var]:
@@ -127,16 +127,16 @@ class ExpandedStep(ABC):
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append the exponents X_i = h sum_j a_ij v_j and the group elements exp(X_i) of all stages."""
-        # Indices in names begin at 1, as in the literature.
+        # The indices in variable names begin at 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append Y, -Y, nu_j and mubar to the program, and store their variables as attributes."""
+        """Append the statements for Y, -Y, nu_j and mubar, and set the attributes of the step."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
-        # The variable ``minus`` contains -Y for the operation dexp*_{-Y}.
+        # The operation dexp*_{-Y} needs the variable -Y.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
         # Ad*_{exp X_j} transports the force n_j from Q_j to q0, where the forces of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
@@ -151,9 +151,8 @@ class ExpandedStep(ABC):
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:
-        """Append the new state q1 = exp(Y) q0, mu1 = Ad*_{exp(-Y)} mubar."""
+        """Append the new state: q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
-        # The element g = exp(Y) acts on q0 and on mubar.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

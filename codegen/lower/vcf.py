@@ -17,10 +17,10 @@ equations for the discrete Lagrangian, transported to q0, are
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-The subscripts of Ad* contain e^{J-1} and E_j^{J-1}, the products of the factors before factor J. The identity
-dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for elements x of the Lie algebra combines factor J with dexp*. In M_i, the
+The subscripts of Ad* contain e^{J-1} and E_j^{J-1}, the products of the factors before factor J. Factor J
+does not occur there, because dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for each x in the Lie algebra. In M_i, the
 program expands mubar into one term for mu0 and one term for each nu_j. Some of these terms may cancel terms
-of the second sum. Later passes of the compiler remove terms that cancel.
+of the double sum. Later passes of the compiler remove terms that cancel.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class _Product:
     """A product of exponentials in a program.
 
     - ``rows`` contains the coefficients of the exponents.
-    - ``minus`` contains the negative exponents.
+    - ``minus`` contains the exponents, multiplied by -1.
     - ``partial`` contains the products of the first 0, 1, ... factors.
     """
 
@@ -55,21 +55,21 @@ class _Product:
 
     @classmethod
     def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
-        """Append and return the product with one factor exp(h sum_j row_j xi_j) for each row."""
+        """Append a product with one factor exp(h sum_j row_j xi_j) for each row, and return this product."""
         build = stages.builder
 
         def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The formulas for the momenta need, for each factor, the product of all earlier factors. The first
-        # factor has no earlier factors, so its product is the identity.
+        # The momenta contain the products of all factors before factor J. Before the first factor, this
+        # product is the identity.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
-            # The exponent x is the argument of exp. The negative exponent is needed for dexp*_{-x}.
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
             # New factors multiply from the left, because the first exponential acts first.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
+            # The operation dexp*_{-x} needs the exponent x with the opposite sign.
             minus.append(exponent(f"y{name}{J}", row, -1))
         return cls(rows, tuple(minus), tuple(partial))
 
@@ -77,7 +77,7 @@ class _Product:
         """Append the covector dexp*_{-x} Ad*_{p^-1} m.
 
         The Lie algebra element x is the exponent of factor J. The group element p is the product of all
-        factors before factor J. The first factor has the index J = 0. The index i occurs only in names.
+        factors before factor J. The index J begins at 0. The index i occurs only in variable names.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -109,17 +109,16 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i."""
+        """Append the momentum M_i of stage i (see the docstring of this module)."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # ``share`` is beta_J^i/b_i.
+                # The coefficient row[i] is beta_J^i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # The terms of mubar are kept separate. Some of them may cancel terms of the second sum.
+                # mubar is expanded into separate terms. Later passes can then cancel some of these terms.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # This loop appends the second sum in the equation for M_i. The equation contains this sum, because
-        # the points Q_j depend on xi_i.
+        # The points Q_j depend on xi_i. The equation for M_i therefore contains the double sum.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -129,15 +128,14 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # Products of different stages may have the same first factors. The program contains these factors
-        # several times. A later pass removes the repetitions.
+        # Products of different stages may begin with the same factors. A later pass removes the repetitions.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
         c = method.abscissae()
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i].partial[-1], q)
-            # The unknowns of the equations are the velocity xi_i and the force n_i of each stage.
+            # M_i is not an unknown, because it is a function of the velocities and forces of the stages.
             evaluations.append(
                 build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i]))
             )
@@ -159,10 +157,10 @@ def _program(scene: Problem, method: Method) -> Program:
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
     """Return the rows of coefficients for each stage, and the rows for the update.
 
-    A stage may start from an earlier stage. The rows of the earlier stage then come first.
+    If a stage starts from an earlier stage, the rows of the earlier stage come first.
     """
     tableau = method.commutator_free()
-    # The update has rows of coefficients like a stage, and is the last entry.
+    # The update has rows of coefficients like a stage, so the loop includes it as the last stage.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)
@@ -171,10 +169,12 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return the weights b_i = sum_J beta_J^i. ZeroWeight is raised if a weight may be zero."""
+    """Return the weights b_i. The weight b_i is the sum of the coefficients of xi_i in the update.
+
+    ZeroWeight is raised if a weight may be zero.
+    """
     b = []
     for i in range(s):
-        # The weight b_i is the sum of the coefficients of xi_i in all exponents of the update.
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]

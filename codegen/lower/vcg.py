@@ -12,10 +12,10 @@ equations are
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
 The equation for M_i follows from (3.19) and the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In M_i, the
-program expands mu0 + h sum_j b_j nu_j into separate terms. If a_ji = b_i and E_j^{i-1} = e^{i-1}, the two
-terms of M_i with nu_j cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). In a composition of substeps, the
-terms cancel if stage j is in a later substep than stage i. Later passes of the compiler remove terms that
-cancel. Each substep can then be computed without the later substeps.
+program expands mu0 + h sum_j b_j nu_j into separate terms. Two terms of M_i then contain nu_j. If
+a_ji = b_i and E_j^{i-1} = e^{i-1}, these two terms cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). In a
+composition of substeps, they cancel if stage j is in a later substep than stage i. Later passes of the
+compiler remove terms that cancel. A substep is then independent of the later substeps.
 """
 
 from __future__ import annotations
@@ -43,12 +43,11 @@ class VariationalCrouchGrossman(VariationalLowering):
 
 
 # M_i contains products of the factors before factor i, so all partial products e^j and E_i^j are stored. A
-# coefficient zero gives the factor exp(0) = 1. A later pass removes this factor.
+# zero coefficient gives the factor exp(0) = 1. A later pass removes this factor.
 #
-# The sum mu0 + h sum_j b_j nu_j is expanded into one term for mu0 and one term for each nu_j. In a
-# composition of substeps, some of these terms cancel terms of the second sum in M_i. The cancellation must be
-# exact, also for coefficients that are balls (intervals). The quotient a_ji/b_i is therefore computed before
-# the product with b_j. If a_ji = b_i, the quotient is exactly one.
+# In a composition of substeps, two terms of M_i with nu_j must cancel exactly, even if the coefficients are
+# balls (intervals). The quotient a_ji/b_i is therefore computed before the product with b_j. If a_ji = b_i,
+# the quotient is exactly one.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -66,11 +65,11 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i."""
+        """Append the momentum M_i of stage i (see the docstring of this module)."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # Indices of lists begin at 0, so e[i] is e^{i-1} in the equations of this module.
+            # Stages are counted from 0 here, so e[i] is the product of the factors before factor i.
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 
@@ -78,7 +77,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:  # stage j does not depend on xi_i
+            if a.is_zero:  # Q_j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)

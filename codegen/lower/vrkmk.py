@@ -11,10 +11,10 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-In general, the unknowns are v_i and m_i. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later
-stages. For such a stage i, the program computes m_i, and Lambda is an unknown instead. In the equation of an
-unknown m_i, the program replaces Lambda and the lambda_j by their formulas. On an abelian group, some of the
-resulting terms cancel.
+In general, the unknowns are v_i and m_i. There is one exception: if a_ji = 0 for all j <= i, m_i depends only
+on Lambda and on later stages. The program then computes this m_i from Lambda, and Lambda is an unknown. In
+the equation for an unknown m_i, the formulas for Lambda and the lambda_j are inserted. On an abelian group,
+some of the resulting terms cancel.
 """
 
 from __future__ import annotations
@@ -50,14 +50,14 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # The keys are the indices i of the stages. ``forces`` contains the forces n_i. ``slopes`` contains
-        # the vectors P*_(r)(X_i, xi_i) m_i, defined in the docstring of this module.
+        # Both dictionaries have the stage index i as key. ``forces`` contains n_i. ``slopes`` contains
+        # P*_(r)(X_i, xi_i) m_i, defined in the docstring of this module.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from their values in the previous iteration."""
-        # The exponents X_i contain the v_j of the previous iteration. The exponent Y contains the new v_j.
+        # The exponents X_i use the v_j of the previous iteration. The exponent Y uses the new v_j.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -71,10 +71,9 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # The equation for m_i (see the docstring of this module) contains column i of A.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends only on Lambda and on later stages, the program computes m_i here.
+            # If a_ji = 0 for all j <= i, m_i is not an unknown. The formula for m_i is then used.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -86,29 +85,26 @@ class _Step(ExpandedStep):
             # The series for v_i and the series for M_i have the same cut-off. Otherwise v_i and M_i would not
             # follow from one discrete Lagrangian, and the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # For r > 0, dexp^{-1}_{(r),X} depends on X. The slope in the equation for lambda_i comes from the
-            # derivative with respect to X.
+            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i. Hence lambda_i contains the slope, which is the
+            # dual of the derivative with respect to X_i, applied to m_i.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
-            # A variation of X_i changes exp(X_i) by dexp_{X_i} of this variation. Hence the equation for
-            # lambda_i contains dexp*_{X_i} n_i, the dual of dexp_{X_i} applied to the force n_i.
+            # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in
+            # lambda_i with the dual operator dexp*_{X_i}.
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The loop appends the last stage first. The list begins with the first stage.
+        # The loop begins with the last stage. The result begins with the first stage.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append the new value of m_i. Lambda and the lambda_j are replaced by their formulas.
-
-        These formulas are in the docstring of this module.
-        """
+        """Append the new value of m_i, with the formulas for Lambda and the lambda_j inserted."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, nu_j and dexp*_{X_j} n_j are equal to n_j, and the slope is zero. The
-            # coefficient of n_j in m_i is then h b_j (b_i - a_ji). For M_i = m_i/b_i, this is the equation of
-            # a symplectic partitioned Runge-Kutta method.
+            # On an abelian group, nu_j and dexp*_{X_j} n_j are equal to n_j, and the slope is zero. Then the
+            # coefficient of n_j in m_i is h b_j (b_i - a_ji), as in a symplectic partitioned Runge-Kutta
+            # method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

@@ -2,10 +2,10 @@
 
 The source is section 3.4.1 of Marthinsen's thesis. The truncated series of dexp is
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)!. Let (xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force
-of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. These equations
-give each xi_i as a formula in the v_j. The discrete Lagrangian is then a function of q0 and the v_j without
-constraints, so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
-dexp_{(r),x} v with respect to x. The other equations are
+of stage i. The vectors v_i satisfy dexp_{(r),X_i} v_i = xi_i with X_i = h sum_j a_ij v_j. Thus the xi_i are
+explicit functions of the v_j. The discrete Lagrangian is a function of q0 and the v_j without constraints, so
+no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with
+respect to x. The other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
@@ -13,8 +13,9 @@ dexp_{(r),x} v with respect to x. The other equations are
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
 h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are v_i and M_i for all stages i. The program solves the
-equations by a fixed-point iteration. The new v_i is the term k = 0 of dexp_{(r),X_i} v_i, and the new M_i is
-the term k = 0 of dexp*_{(r),X_i} M_i. All other terms use the values of the previous iteration.
+equations by a fixed-point iteration. Each iteration solves for the terms with k = 0: v_i in
+dexp_{(r),X_i} v_i, and M_i in dexp*_{(r),X_i} M_i. The exponent Y uses the new v_j. All other terms use the
+values of the previous iteration.
 """
 
 from __future__ import annotations
@@ -72,11 +73,10 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # ``brackets`` are the vectors ad_X^k v_i, and ``momenta`` are the vectors (ad*_X)^k M_i.
+        # With X = X_i, ``brackets`` contains ad_X^k v_i, and ``momenta`` contains (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # The equation dexp_{(r),X} v = xi contains v itself as the term k = 0. The new value of v is
-        # xi - sum_{1<=k<=r} ad_X^k v/(k+1)! with the previous v in the sum. For small h, this map is a
-        # contraction, so the iteration converges.
+        # In dexp_{(r),X} v = xi, the term k = 0 is v. The new value of v is xi minus all terms with k >= 1,
+        # computed from the previous v. For small h, this map is a contraction, so the iteration converges.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -90,22 +90,21 @@ class _Step(ExpandedStep):
         """
         powers = [first]
         for k in range(self.r):
-            # One bracket with x gives the next power.
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append the vector R*_(r)(x, v) M, defined in the docstring of this module.
 
-        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is the
-        sum over i < r of ad*_{z_i} (ad*_x)^i M, with z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. With the cut-off r
+        and z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!, the result is sum_{0<=i<r} ad*_{z_i} (ad*_x)^i M.
         """
         terms: Terms = []
         # Let w_ki = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is
         # -sum_{i<k} ad_x^i ad_{w_ki} d. The dual of this derivative maps a covector M to
         # sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. In dexp_{(r),x} v, the term ad_x^k v has the factor 1/(k+1)!.
-        # For each i, the sum z_i of the vectors -w_ki/(k+1)! over k > i is computed first. One bracket of z_i
-        # with (ad*_x)^i M is then sufficient. This gives r brackets instead of r (r + 1)/2.
+        # The vectors -w_ki/(k+1)! with equal i are first added to z_i. Thus r brackets are sufficient instead
+        # of r (r + 1)/2.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -115,12 +114,12 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation for M_i (see the docstring of this module) contains the series dexp*_{(r),X_i} M_i. The
-        # term k = 0 of the series is M_i. ``corrections`` contains all other terms, multiplied by -1.
+        # The equation for M_i contains the series dexp*_{(r),X_i} M_i. Its term k = 0 is M_i. ``corrections``
+        # contains all other terms, multiplied by -1.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # ``factor`` is the coefficient of the force and of the slope of stage j. The exponent X_j depends
-            # on h a_ji v_i, so ``factor`` contains a_ji.
+            # The exponent X_j contains the term h a_ji v_i. The force and the slope of stage j therefore have
+            # the coefficient -h b_j a_ji/b_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -128,9 +127,9 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses of the unknowns, computed at the start of the step.
+        """Return the initial guesses of the unknowns.
 
-        Each v_i starts from the velocity xi, and each M_i starts from the momentum mu.
+        The guess of v_i is the velocity xi at the start of the step. The guess of M_i is the momentum mu.
         """
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
@@ -141,7 +140,7 @@ def _rest(powers: list[Var]) -> Terms:
 
     ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The caller solves an equation for the term k = 0, so this term is omitted.
+    # The term k = 0 is omitted, because the caller solves its equation for this term.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 
