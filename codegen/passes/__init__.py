@@ -3,8 +3,8 @@
 A pass is exact if, in exact arithmetic, both programs have the same results.
 
 The function :func:`optimise` runs all passes in a fixed order. After every pass it checks the new program:
-types must match, and each variable is assigned once. It also runs the new and the original program from two
-states of the scene and compares the results.
+types must match, and each variable is assigned once. It also compares the results of the new program with the
+results of the program before the first pass.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ def optimise(
 
 
 class Optimiser:
-    """Runs the passes on one program and compares the result of each pass with a reference.
+    """Runs the passes on ``program``. After each pass the new program is compared with ``program``.
 
-    ``composed`` may be given if the step repeats a shorter method in several substeps
-    (:mod:`codegen.lower.substeps`). The statements of ``composed`` compute one substep. Its list ``substeps``
-    contains all substeps of the step. The optimiser tests that ``composed`` has the same results as
-    ``program``. Then the passes rewrite the statements of ``composed``.
+    If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
+    another program for the step. The statements of ``composed`` compute one substep. The attribute
+    ``substeps`` of ``composed`` lists all substeps. The optimiser tests that ``composed`` has the same
+    results as ``program``. Then the passes rewrite ``composed``.
 
     If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. This error means that the
     compiler has a bug.
@@ -76,8 +76,8 @@ class Optimiser:
         self.program, self.meaning = program, Reference(program, scene)
         if composed is not None:
             whole: Program = composed
-            self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # The passes rewrite the statements of one substep, so the reference is also one substep.
+            self._run(Pass("substeps", "the step is a sequence of substeps", lambda _: whole))
+            # The passes rewrite the statements of one substep. Therefore the reference computes one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -93,12 +93,12 @@ class Optimiser:
         equations are smaller, but the program may need more operations.
         """
         plain, reports = self.program, list(self.reports)
-        # The interpreter returns the momentum in the space frame for both kinds of programs. Therefore the
-        # results in the two frames can be compared.
+        # For a program in the body frame, the interpreter also returns the momentum in the space frame.
+        # Therefore the results can be compared.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The program in the space frame is restored, so that a later call of ``plain`` returns this program.
+        # A later call of ``plain`` must return the program in the space frame. Therefore it is restored.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -107,8 +107,8 @@ class Optimiser:
         # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # Each program is compared with the program before the first pass, so small deviations cannot add up
-        # from pass to pass.
+        # The reference is the program before the first pass. Therefore small deviations of the passes cannot
+        # add up.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -136,26 +136,26 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # The pass for joined flows removes flows. This pass removes their stage times.
+        # The previous pass removes flows. This pass removes the stage times of these flows.
         Pass("unused values", UNUSED, dead.run),
-        # The pass for zeros removes terms that cancel. Without it, this pass would find dependencies in them.
+        # Terms that cancel would look like dependencies. Therefore the pass for zeros precedes this pass.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass tests whether only one operation reads a linear map. Therefore this pass first removes
         # operations whose results are not used.
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
-        # treats the case that several sums read L(x) and L(y).
+        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). If several sums
+        # read L(x) and L(y), the next pass replaces L(x) + L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass counts the operations that read exp(x), so it must follow value numbering, which merges
-        # equal exponentials.
+        # This pass counts the operations that read exp(x). Equal exponentials must be merged before, by value
+        # numbering.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # After factoring, some values of a block may no longer depend on the unknowns of the block. This pass
-        # moves these values out of the block.
+        # Factoring can remove dependencies. If a value in a block no longer depends on the unknowns of the
+        # block, this pass moves the value out of the block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -171,10 +171,11 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # variable for each momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The Legendre transform introduces inverses of maps, which may cancel other maps.
+        # The Legendre transform introduces inverses of maps. This pass removes a map and its inverse if one
+        # follows the other.
         Pass("inverse maps", inverse, opposites.run),
-        # In general the force of a stage depends on the unknown momentum of the stage. The Legendre transform
-        # removes this dependence. Only then can this pass remove the force from the unknowns.
+        # The Legendre transform computes the force of a stage from the velocity. Therefore this pass can
+        # remove the force from the unknowns.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -182,21 +183,20 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # The next pass replaces more adjoint operations of exp(x) if no other operation reads exp(x).
-        # Therefore this pass first replaces products that read exp(x).
+        # The next pass keeps an adjoint map of exp(x) if other operations read exp(x). Therefore this pass
+        # first replaces products that read exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass adds residuals. Each residual is the difference of two formulas for the same momentum. To
-        # choose this momentum, the pass looks for functions of ad, which the previous pass creates.
+        # A residual is the difference of two formulas for the same momentum. The choice of this momentum
+        # depends on the functions of ad that the previous pass creates.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
-        # The residuals contain new inverses of maps, so the passes for maps are repeated.
+        # The residuals contain new inverses of maps. Therefore the next passes are repeated.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients into the arguments of maps. This pass moves a coefficient out of an
-        # argument that is a single term.
+        # Factoring moves coefficients c into the arguments of maps L. This pass replaces L(c x) by c L(x).
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",
@@ -204,7 +204,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass takes the factor -1 out of sums. Other passes would multiply it into the sums again, so
-        # this pass is the last.
+        # This pass takes the factor -1 out of sums. Other passes would multiply the sums by -1 again, so this
+        # pass is the last.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

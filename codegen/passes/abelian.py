@@ -1,8 +1,9 @@
-"""Remove operations that are the identity or zero because Lie brackets vanish.
+"""Remove operations that return their argument or zero because Lie brackets vanish.
 
 The pass is exact. On an abelian group all brackets vanish. Then dexp^{-1}, dexp* and the adjoint operations
-are the identity, and ad is zero. On every group, dexp^{-1} truncated at order 0 is the identity, because this
-series contains no brackets. In both cases dexp^{-1}_x does not depend on x, so its derivative is zero.
+are the identity, and ad is zero. On every group, dexp^{-1} truncated at order 0 is the identity, because the
+truncated series contains no brackets. In both cases dexp^{-1}_x does not depend on x, so its derivative is
+zero.
 """
 
 from __future__ import annotations
@@ -20,9 +21,10 @@ ZEROS = (Bracket, InverseDexpSlope)
 
 
 def run(program: Program, abelian: bool) -> Program:
-    """Return the program without operations that are the identity or zero.
+    """Replace operations in :data:`IDENTITIES` by their last argument, and those in :data:`ZEROS` by zero.
 
-    If ``abelian`` is True, the group is abelian, and every bracket vanishes.
+    If the group is not abelian (``abelian`` is False), only two operations are replaced: dexp^{-1} truncated
+    at order 0, and its derivative.
     """
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
@@ -33,8 +35,7 @@ def run(program: Program, abelian: bool) -> Program:
             # The operation is the identity on its last argument, so the last argument is the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # Zero could also be written as a sum without terms, but the pass for zeros recognises only the
-            # operation Zero.
+            # The pass for zeros recognises the operation Zero, but not a sum without terms.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

@@ -1,4 +1,4 @@
-"""Split each block into the strongly connected components of its dependency graph.
+"""Split each block of implicit equations into the strongly connected components of its dependency graph.
 
 The components are solved one after the other.
 
@@ -34,59 +34,59 @@ def run(program: Program) -> Program:
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements that replace a block, in order of execution.
 
-    Later statements read another variable in place of an unknown of the block. The function adds this
-    variable to the dictionary ``names``; the key is the unknown.
+    For each unknown of the block, the function adds an entry to ``names``: the variable that later statements
+    read in place of the unknown.
     """
     # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
-    # If a starting value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
+    # If a start value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # A node is the index of an assignment in the body, so the order of the nodes is the same in every run.
+    # The nodes are the indices of the assignments. Integers have the same order in every run.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
-    # Assignments without an edge are components, too.
+    # The graph must also contain the assignments without edges.
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # If the argument is an unknown, the edge begins at the assignment that computes its image.
+            # If ``arg`` is an unknown, the edge begins at the assignment that computes the image of ``arg``.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # The assignments of a component keep their order.
+    # The assignments of a component keep their order in the block.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # The order closest to the old program is chosen, so that emitted text changes little.
+    # Several orders are possible. The emitted text changes least if the order of the block is kept.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown belongs to the new block if the component computes its image and also reads the unknown.
+        # The component solves for an unknown u if it computes the image of u and reads u.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # Every cycle contains an unknown. A component without unknowns has no cycle and needs no block.
+        # A component without unknowns has no cycle, so it needs no block.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # At this point no block has residuals. The pass :mod:`codegen.passes.legendre` adds them later.
+        # The block has no residuals yet. The pass :mod:`codegen.passes.legendre` adds them later.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # Later statements read the image, which equals the unknown at the solution.
+    # At the solution an unknown equals its image. Therefore later statements read the image.
     names.update(image)
     return result
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return, for each unknown, a variable that equals it at the solution and is not an unknown of the block.
+    """Return a map from each unknown to a variable that has the same value at the solution.
 
-    This variable is the image of the unknown. If the image is another unknown, the image of that unknown is
-    used, and so on. If the search reaches the same unknown twice, the start value is used.
+    This variable is the image of the unknown. If the image is another unknown, the search continues with the
+    image of the other unknown. If the search reaches an unknown twice, the start value is used.
     """
     result = {}
     for unknown in image:
@@ -94,16 +94,14 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # Equations such as v = w and w = v do not determine v. Every value solves them, so v keeps its start
-        # value.
+        # Every value of v solves the equations v = w and w = v. Therefore v keeps its start value.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # The unknowns of the new block, ``kept``, are not replaced by their images, because the assignments
-        # would then form a cycle.
+        # If the unknowns of the new block were replaced by their images, the assignments would form a cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

@@ -1,6 +1,6 @@
 """Transformation of a program to the body frame at the start of the step.
 
-The pass is exact. Every value is transformed by q^{-1}:
+The pass is exact. Let q be the position at the start of the step. Every value is transformed:
 
 - a group element E becomes E~ = q^{-1} E q,
 - an element x of the algebra becomes Ad_{q^-1} x,
@@ -9,11 +9,11 @@ The pass is exact. Every value is transformed by q^{-1}:
 
 The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass does not change them.
 
-One operation is replaced: the evaluation of the derivatives of the Hamiltonian. It computes the velocity and
-the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame
-at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame` defines the
-velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force
-is Ad*_{E~^-1} N(Q, P). In the new program, the equations read only those coordinates of Q on which W and N
+One operation is replaced: the evaluation of the derivatives of the Hamiltonian. This operation computes the
+velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage. In
+the body frame at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame`
+defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the
+transformed force is Ad*_{E~^-1} N(Q, P). The new equations read only the coordinates of Q on which W and N
 depend.
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
@@ -56,11 +56,11 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q. Their arguments must not be positions."""
+"""Operations that commute with the adjoint action of q if no argument is a position."""
 
 
 class NotFramed(Exception):
-    """Raised if this pass cannot rewrite an operation. The function ``run`` catches this exception."""
+    """Raised if this pass cannot rewrite a program. The function ``run`` catches this exception."""
 
 
 def run(program: Program, scene: Problem) -> Program:
@@ -70,7 +70,6 @@ def run(program: Program, scene: Problem) -> Program:
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # The program is not changed if the rewriting finds an operation that is not equivariant.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -81,14 +80,14 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """Maps each position Q = E q to the variable of its factor E, or to None if E is the identity."""
+    """Maps each position Q = E q to the variable that contains E, or to None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position at the start of the step is q itself, so its factor E is the identity (None).
+        # The position q at the start of the step is E q, where E is the identity (None).
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -96,10 +95,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # An unknown position Q = E q has no variable for the factor E, so the pass cannot rewrite it.
+            # If an unknown is a position Q = E q, no variable contains E, so the program is not rewritten.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The start values are computed before the block, so their new names are already known.
+            # The start values are computed before the block, so ``names`` contains their new names.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -110,8 +109,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # A program with an embedded solution is not rewritten. It returns two positions, and their body
-        # frames differ.
+        # A program with an embedded solution returns two positions with different body frames. Such a program
+        # is not rewritten.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
@@ -126,8 +125,8 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # The pass can rewrite only two operations on a position: the evaluation of the field, and the product
-        # with a group element. For other operations it stops.
+        # Only two operations may have a position as an argument: the evaluation of the field, and the product
+        # with a group element.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -138,17 +137,17 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # The product (E q)(E' q) of two positions does not have the form E'' q.
+            # The pass cannot rewrite the product of two positions.
             if left in self.relative:
                 raise NotFramed
-            # The product of the element L = ``left`` and the position R q is the position E q with E = L R.
-            # Here R is the element ``right``.
+            # Let L be the group element ``left``, and let R be the group element ``right``. The product of L
+            # and the position R q is the position E q with E = L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation maps transformed arguments to the transformed result.
+            # An equivariant operation stays the same. Only its arguments are replaced.
             self._emit(replace(assign, args=self._now(args)))
         # A stage time is the same in every frame.
         elif isinstance(operation, Advance):
@@ -162,10 +161,10 @@ class _Framing:
     def _field(self, assign: Assign) -> None:
         """Append the velocity and the force of a stage in the body frame at the start of the step.
 
-        Let Q = q E be the position of the stage, and let M be its momentum in the body frame at the start of
-        the step. In the body frame at Q, the momentum is P = Ad*_E M, the velocity is W(Q, P), and the force
-        is N(Q, P). In the body frame at the start of the step, the velocity is Ad_E W(Q, P), and the force is
-        Ad*_{E^-1} N(Q, P).
+        Let q be the position at the start of the step, and let Q = q E be the position of the stage. Let M be
+        the momentum of the stage in the body frame at q. In the body frame at Q, the momentum is P = Ad*_E M,
+        the velocity is W(Q, P), and the force is N(Q, P). In the body frame at q, the velocity is
+        Ad_E W(Q, P), and the force is Ad*_{E^-1} N(Q, P).
         """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]

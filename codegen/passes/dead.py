@@ -25,23 +25,24 @@ def run(program: Program) -> Program:
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # The list ``kept`` is reversed at the end, so the statements are appended in reverse order.
+        # The statements in ``kept`` are in reverse order.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Return the live part of a block as statements, and add the values that it reads to ``live``."""
+    """Return the statements that replace a block, and add the values that they read to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
-    # A block may have no residuals, so zip is not strict.
+    # If the block has no residuals, ``block.residuals`` is empty. Therefore zip is not strict.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # If an unknown is live, its image is live. If a value is live, the arguments of its assignment are live.
+    # A live unknown needs its image, the right-hand side of its equation. Other live values need the
+    # arguments of their assignments.
     while wanted:
         var = wanted.pop()
-        # The equations of a block may depend on each other in cycles, so a value may be reached twice.
+        # In implicit equations a value can depend on itself. Then the loop reaches the value twice.
         if var in needed:
             continue
         needed.add(var)
@@ -59,6 +60,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # The block reads the start values, so the assignments that compute them must be kept.
+    # The start values of the unknowns are live.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

@@ -1,8 +1,8 @@
 """Unknowns with the same image (right-hand side of the fixed-point equation) are merged into one unknown.
 
 The pass is exact, because unknowns with the same image are equal at a solution. If two stages have the same
-coefficients, their unknowns have the same image after :mod:`codegen.passes.value_numbering`. The two stages
-then become one stage.
+coefficients, :mod:`codegen.passes.value_numbering` gives both unknowns the same image. This pass merges the
+two stages.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # The dictionary ``same`` maps each removed unknown to the unknown that replaces it. Later
-            # statements may also read the removed unknown.
+            # The dictionary ``same`` contains the replacements of all earlier blocks, because every later
+            # statement may read a removed unknown.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
             # Removed unknowns are replaced in the body. The body may then contain equal assignments, which
@@ -51,7 +51,7 @@ def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # If the image is an unknown, the pass :mod:`codegen.passes.blocks` replaces the unknown.
+        # The pass :mod:`codegen.passes.blocks` solves equations v = w between two unknowns.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -1,6 +1,7 @@
 """Numerical test that two programs have the same results.
 
-An interpreter executes one step of both programs from each of two states of the scene.
+An interpreter executes one step of the reference program and of the rewritten program. The test begins at two
+states of the scene.
 """
 
 from __future__ import annotations
@@ -22,59 +23,62 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try. The largest is first, because a wrong rewriting has the largest effect in a long step.
 
-If the largest step exceeds the bound :data:`REACH`, all step sizes are divided by the same power of two.
+If the field is large, all step sizes are divided by the same power of two (see :data:`REACH`).
 """
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Exponents k of the tiny step sizes 2^-k, and the number of decimal digits for these steps.
 
-If no step in double precision can be compared, the tiny steps are tried. They are divided by the same power
-of two as :data:`STEPS`. The smallest is short enough even for a scene with a coefficient of 1e300.
+If no step in double precision can be compared, the tiny steps are tried. If the field is large, the tiny step
+sizes and :data:`STEPS` are divided by the same power of two. The smallest tiny step is short enough even for
+a coefficient of 1e300.
 """
 
 REACH = 0.5
 """Upper bound for the product of the step size and the largest component of the field.
 
-Steps above this bound would amplify rounding errors.
+A larger step would amplify rounding errors.
 """
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""The errors that the interpreter may raise. For example, the root of a negative number is a ValueError."""
+"""Errors of the interpreter if a step cannot be computed. The root of a negative number is a ValueError."""
 
 SWEEPS = 24
-"""Limit for the sweeps (fixed-point iterations) of a block, for the reference program in doubles.
+"""Largest number of fixed-point iterations (sweeps) of the reference program in double precision.
 
-If a step needs more sweeps, it is too long for an accurate comparison, and a shorter step is tried. If each
-sweep divides the error by four, 24 sweeps divide the error by 2^48.
+If a step needs more sweeps, a shorter step is tried. If each sweep divides the error by four, 24 sweeps
+divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""If results in doubles differ, the step is repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
+"""Largest number of sweeps, and number of decimal digits, if a step in doubles is repeated more precisely."""
 
 NOT_A_NUMBER = "differs by nan"
-"""If a difference is not a number (NaN), its description ends with these words."""
+"""End of the description of a difference that is not a number (NaN)."""
 
 APART = 16
-"""If the results of a step cannot be compared, the step size is divided by this factor or a larger one."""
+"""If the reference has results for two successive steps, their sizes differ at least by this factor."""
 
 LARGEST = 2.0**512
-"""Results above this number are not compared."""
+"""A step is not compared if the absolute value of a result reaches this number."""
 
 CLOSE = 2.0**-200
-"""Results of a tiny step agree if their difference is at most this fraction of the change of the state."""
+"""After a tiny step, two results agree if they differ by at most CLOSE times the change of the state."""
 
 AGREE = 2.0**-36
-"""Two results agree if their relative difference is at most this number. Tiny steps use :data:`CLOSE`.
+"""Two vectors x and y agree if |x - y| <= AGREE max(1, |x|) in the maximum norm.
 
-The number is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the gallery.
-A test in ``tests/codegen/passes/test_equivalence.py`` finds a wrong coefficient with an error of 2^-28.
+Tiny steps use :data:`CLOSE` instead. Rounding errors are much smaller than AGREE: they were at most 2^-51 in
+170 comparisons on scenes of the gallery.
 """
 
 
 @dataclass(frozen=True)
 class _Step:
-    """One step of the reference program: the new state ``after``, and the solutions of implicit equations.
+    """One step of the reference program.
 
+    - ``after`` is the new state.
+    - ``solutions`` contains the solutions of the implicit equations.
     - ``moved`` is True if the step begins near the initial state, and False if it begins at the initial
       state.
     - ``tiny`` is True if the step size is one of :data:`TINY_STEPS`.
@@ -89,7 +93,7 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits that raises an error if an iteration diverges."""
+    """Arithmetic with many digits. An error is raised if an iteration diverges."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
@@ -102,10 +106,10 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return the pair (converged, change) for a sweep from ``old`` to ``new``.
+        """Return the pair (converged, change) for one fixed-point iteration from ``old`` to ``new``.
 
-        ``change`` is the size of the change, and ``previous`` is the size in the previous sweep. NotConverged
-        is raised if the change is at least 10^digits.
+        ``change`` is the size of the change, and ``previous`` is the change in the previous iteration.
+        NotConverged is raised if ``change`` is at least 10^digits.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -114,9 +118,9 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """The results of steps that begin at the same state, sorted by decreasing step size.
+    """Steps of the reference program that begin at the same state. The longest step comes first.
 
-    The constructor computes the first result. The method ``results`` computes the others when needed.
+    The constructor computes the first step. The method ``results`` computes the shorter steps on demand.
     """
 
     def __init__(self, more: Iterator[_Step]) -> None:
@@ -124,7 +128,7 @@ class _Point:
         self.computed = list(islice(more, 1))
 
     def results(self) -> Iterator[_Step]:
-        """Yield the results, first the result of the longest step."""
+        """Yield the steps. The longest step comes first."""
         yield from self.computed
         for result in self._more:
             self.computed.append(result)
@@ -137,8 +141,8 @@ class Reference:
     The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
     symmetric position). The other point is near the initial state and has no symmetry.
 
-    From each point, the longest possible step is used. The step size is limited by :data:`REACH`. The
-    results must be finite, and the iterations for the implicit equations must converge.
+    From each point, the comparison begins with the longest step of the reference program that has finite
+    results and converging iterations. The step size is limited by :data:`REACH`.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -188,23 +192,23 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step of a program, or None if the step cannot be computed."""
-        # The dictionary receives the solutions of the implicit equations. The iterations of other programs
-        # start from these solutions.
+        # The dictionary receives the solutions of the implicit equations. The iterations of the rewritten
+        # program start from these solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Very large results are excluded. A rewritten program may add the terms in another order, and its
-        # partial sums may then overflow.
+        # If a rewritten program adds large terms in another order, its partial sums may overflow. Therefore
+        # steps with very large results are not compared.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Return True if a tiny step changes the state only slightly. ``power`` is its exponent p.
+        """Return True if a tiny step with the exponent p = ``power`` changes the state only slightly.
 
-        Every number x of the state may change by at most 2^(-p/2) max(1, |x|).
+        The change of every number x of the state must be at most 2^(-p/2) max(1, |x|).
         """
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
@@ -228,7 +232,7 @@ class Reference:
     def differs(self, program: Program) -> str:
         """Return a description of the first difference between the results of ``program`` and the reference.
 
-        If there is no difference, the result is ''. If no point permits a comparison, SceneError is raised.
+        If there is no difference, the result is ''. If no step can be compared, SceneError is raised.
         """
         accounts = [self._in_some_step(program, point) for point in self.points]
         if all(account is None for account in accounts):
@@ -236,16 +240,15 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Compare ``program`` with the reference in the longest possible step, and describe the difference.
+        """Compare ``program`` with the reference in the longest step that can be compared.
 
-        - If the programs agree, the result is ''.
-        - If ``program`` fails in all steps, the result describes its last failure.
-        - If no step permits a comparison, the result is None.
+        - If the results agree, return ''. If they differ, describe the difference.
+        - If no step can be compared, describe the last step in which only ``program`` fails. If there is no
+          such step, return None.
         """
         failure = None
         for step in point.results():
-            # In a long step, iterations may fail to converge and sums may overflow, so a shorter step is
-            # tried.
+            # If the iterations do not converge, or numbers overflow, a shorter step is tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -274,7 +277,7 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Solve the implicit equations of both programs by Newton's method with many digits, and compare.
+        """Repeat the step with Newton's method and many digits. Compare ``program`` with the reference.
 
         Return a description of the difference, or '' if there is none. If Newton's method fails, return None.
         """
@@ -290,10 +293,10 @@ class Reference:
         return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Repeat the step of both programs with many digits, and describe the difference of the results.
+        """Repeat the step with many digits. Describe the difference between ``program`` and the reference.
 
-        ``account`` describes the difference in doubles. It is returned if the repeated step fails. If the
-        results agree, '' is returned.
+        ``account`` describes the difference in doubles. If the repeated step fails, ``account`` is returned.
+        If the results agree, '' is returned.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -310,24 +313,24 @@ class Reference:
             if name not in step.after:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))
-            # A component may be zero by symmetry. Then only rounding errors remain, and a relative comparison
+            # If the exact results are zero, x and y contain only rounding errors, and a relative comparison
             # makes no sense. Therefore ``scale`` is at least 1.
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # ``scale`` is the change of the state. If the state does not change, ``scale`` must still be
-                # larger than rounding errors.
+                # For a tiny step, ``scale`` is the change of the state. If the change is zero, ``scale`` is a
+                # small number above the rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # The condition is written with ``not``, so that NaN counts as a difference.
+            # NaN must count as a difference. Comparisons with NaN are false, so the condition needs ``not``.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
 
 
 def _speed(scene: Problem, state: dict[str, Value]) -> float:
-    """Return the largest component of the field, or of the derivatives of the Hamiltonian, at a state."""
+    """Return the largest absolute value of a component of the field at a state."""
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
@@ -343,7 +346,7 @@ def _no_step(scene: Problem) -> SceneError:
     return SceneError(
         "no step of the method can be computed from the initial state, nor from a state nearby",
         where=scene.name,
-        expected="a field that is finite at these states, and stages solvable for small steps",
+        expected="a field that is finite at these states, and solvable stage equations for small steps",
         hint="check the scene for roots of negative numbers, zero denominators, numbers above 1e308",
     )
 
@@ -351,11 +354,11 @@ def _no_step(scene: Problem) -> SceneError:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True.
 
-    In the nearby state, the time is larger by 1/8, and a fixed covector is added to momenta. A fixed group
-    element acts on all other parts of the state.
+    The nearby state has a time that is larger by 1/8. A fixed covector is added to a momentum. A fixed group
+    element acts on the position.
     """
     start = scene.initial(domain)
-    # The directions are sines of integers: numbers without symmetries, and the same in every run.
+    # Sines of integers have no symmetries, and they are the same in every run.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}
@@ -363,7 +366,7 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # The group acts on the other parts of the state, because the new values must lie on the manifold.
+        # A new position must lie on the manifold. Therefore the group acts on it.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:
