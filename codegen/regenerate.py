@@ -25,7 +25,7 @@ class Entry:
     targets: tuple[str, ...]
 
     def emissions(self) -> list[Artifact]:
-        """Compile the method for the scene of this entry, and return an emitted module for each target."""
+        """Compile the method for the scene, and return one emitted module for each target."""
         compiled = compile_method(self.scene, self.method)
         named = {"scene": self.scene, "method": self.method}
         return [emit_compiled(compiled, target, "", named) for target in self.targets]
@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of ``regenerate.toml``. InputError is raised for an entry that cannot be read.
 
-    A file without entries is an error, because all files of ``generated/`` would then be removed.
+    A file without entries is an error, because :func:`write` would then remove all emitted files.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -53,7 +53,7 @@ def entries(path: Path = LIST) -> list[Entry]:
 
 
 def _entry(module: object, where: str) -> Entry:
-    """Return a table of ``regenerate.toml`` as an entry.
+    """Return the entry for one table of ``regenerate.toml``.
 
     InputError is raised if the keys of the table, or the types of its values, are wrong.
     """
@@ -101,7 +101,7 @@ class Difference:
     - ``missing``: the folder does not contain this expected file.
     - ``different``: this expected file has a different content in the folder.
     - ``stale``: the file was emitted earlier, but it is no longer expected.
-    - ``unknown``: the file was not emitted. The function :func:`write` does not remove this file.
+    - ``unknown``: no manifest lists this file. The function :func:`write` does not remove this file.
     """
 
     path: str

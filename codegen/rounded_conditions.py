@@ -17,17 +17,16 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The ball arithmetic (intervals) for residuals. It has many bits, because the terms of a residual cancel."""
+"""Interval arithmetic with 256 bits. It has many bits, because the terms of a residual cancel."""
 
 MOST = 3000
-"""If an order has more conditions than this number, no residual is computed."""
+"""If an order has more conditions than this number, :func:`largest_residual` returns None."""
 
 
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
-    """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
+    """Return the result of :func:`largest_residual` for the coefficients rounded to ``target``.
 
-    Every coefficient is rounded once to the target's format. The result is None in the cases that
-    :func:`largest_residual` lists.
+    Every coefficient is rounded once to the precision ``target``.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE
@@ -44,10 +43,14 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 
 
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
-    """Return an upper bound of the absolute values of the residuals of the conditions up to ``order``.
+    """Return an upper bound of the absolute residuals of the order conditions up to ``order``.
 
-    The result is None if more than :data:`MOST` conditions belong to one order. It is also None if a
-    condition contains a division by a coefficient that may be zero.
+    Only conditions that imply all other conditions are evaluated. The bound is rounded to the nearest double.
+    The result is None in these cases:
+
+    - The family cannot read the tableau.
+    - An order has more than :data:`MOST` conditions.
+    - A condition contains a division by a number that may be zero.
     """
     coefficients = family.read(tableau.over(RING))
     if coefficients is None:
@@ -62,7 +65,6 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
         except ZeroDivisionError:
             return None
         largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
-    # The conversion of a Fraction to a float gives the nearest double.
     return float(largest)
 
 

@@ -1,6 +1,6 @@
-"""The recipe: the text at the beginning of an emitted file.
+"""The recipe: the data of the comment at the beginning of an emitted file.
 
-The text describes the origin and the properties of the file, and shows an example of its use.
+The comment describes the origin and the properties of the file, and shows an example of its use.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ class Recipe:
 
     The data contain no date and no path, so emitting twice gives the same file.
 
-    - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
+    - ``facts`` are (word, sentence) pairs in the order of the header, such as ("method", "RKMK on rk4 ...").
     - ``left_out`` has one line for each operation or argument that the module does not need.
     - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
       example.
-    - ``defaults`` are the scene's values of run-time parameters.
+    - ``defaults`` are the values of the run-time parameters in the scene.
     - ``command`` is the command that regenerates the file.
     - ``version`` is the version of orderconds.
     """
@@ -37,17 +37,17 @@ class Recipe:
 
 
 LONGEST_STATE = 64
-"""The usage example contains the whole initial state if it has at most this number of coordinates."""
+"""If a state has at most this number of coordinates, the usage example contains the whole initial state."""
 
 MOST_ENTRIES = 16
 """The largest number of nonzero coordinates that the usage example sets one by one.
 
-If a state has more than :data:`LONGEST_STATE` coordinates, the example sets only the nonzero coordinates.
+The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 """
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The comment in the usage example for a long state with too many nonzero coordinates."""
+"""The comment in the usage example if a long state has more than :data:`MOST_ENTRIES` nonzero coordinates."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
@@ -80,7 +80,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # A command with a line break at a hyphen could not be copied.
+            # A line break after a hyphen would damage a command in the header.
             break_on_hyphens=False,
         )
     return lines

@@ -33,7 +33,7 @@ def register(new: Target) -> Target:
     """
     # ``targets()`` contains built-in targets, targets from entry points and registered targets.
     known = {each.name: each for each in targets()}
-    # An equal target with this name causes no error.
+    # A second registration of the same target is no error.
     if known.get(new.name, new) != new:
         raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
@@ -48,13 +48,14 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets. The built-in targets come first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
-    # The dictionary has one entry for each name, so a target that was added twice is returned once.
+    # The dictionary has one entry for each name, so a target that is both declared and
+    # registered is returned once.
     return tuple({each.name: each for each in every}.values())
 
 
 @cache
 def _built_in() -> tuple[Target, ...]:
-    # The result is cached, because this function imports modules.
+    # The result is cached, so the targets are imported only once.
     return tuple(map(resolve_name, BUILT_IN))
 
 

@@ -7,7 +7,7 @@ from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state, with the indices, name and meaning of the field."""
+    """Return lines with the indices, the name and the meaning of each field of the state."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -20,12 +20,12 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return one line with the names of the run-time inputs and their evaluation times.
+    """Return one line with the run-time inputs and the times at which a step evaluates them.
 
-    If there are no inputs, the tuple is empty.
+    If the kernel has no inputs, the tuple is empty.
     """
     if not kernel.inputs:
         return ()
-    # The line contains the names from the scene. The emitted code may use different identifiers.
+    # The inputs have their names in the scene. The emitted code may use different identifiers.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, evaluated at {read}",)

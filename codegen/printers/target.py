@@ -30,15 +30,15 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 class Target:
     """A target language.
 
-    Each function is given as a text ``module:function``. The function is imported when it is used.
+    A function is stored as a text ``module:function``, and it is imported when it is used.
 
     - ``name`` is the name of the target in commands.
     - ``title`` is the name of the target in headings.
     - ``about`` is the description of the target in listings, on one line.
     - ``printer`` is a function (kernel, interface, recipe) -> files.
-    - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.loader.Integrator`.
+    - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.integrator.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` is the largest number of steps in a convergence test. This number of steps takes about
+    - ``most_steps`` is the largest number of steps of a run in a convergence test. Such a run takes about
       one second.
 
     The other fields are optional:
@@ -47,8 +47,8 @@ class Target:
       It returns the elapsed time in seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression. In the file of the step, its first group matches the bound on the
-      stack memory in bytes.
+    - ``stack`` is a regular expression that finds the bound on the stack memory in the file of the step. Its
+      first group matches the number of bytes.
     - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.
@@ -71,7 +71,7 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # The printer is imported only here, because a list of the targets does not need printers.
+        # The printer is imported only here, because the command that lists the targets needs no printer.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property
@@ -83,7 +83,7 @@ class Target:
     def load_lattice(self) -> LoadLattice:
         """The function that loads a module for a lattice.
 
-        ValueError is raised if ``lattice_loader`` is empty.
+        ValueError is raised if the target has no ``lattice_loader``.
         """
         return cast("LoadLattice", resolve_name(self.lattice_loader))
 
@@ -91,7 +91,7 @@ class Target:
     def load_spectral(self) -> LoadSpectral:
         """The function that loads a module for a semilinear equation.
 
-        ValueError is raised if ``spectral_loader`` is empty.
+        ValueError is raised if the target has no ``spectral_loader``.
         """
         return cast("LoadSpectral", resolve_name(self.spectral_loader))
 
@@ -107,7 +107,7 @@ class Target:
     def solutions(self) -> Solutions:
         """The function that makes one step and returns the solved unknowns of each substep.
 
-        ValueError is raised if ``observer`` is empty.
+        ValueError is raised if the target has no ``observer``.
         """
         return cast("Solutions", resolve_name(self.observer))
 

@@ -1,2 +1,1 @@
-"""This package adds solvers, warm start, continuation, step control and trajectories to the arithmetic of a
-step."""
+"""Builds the emitted functions from the formulas of a step: solvers, step control and trajectories."""

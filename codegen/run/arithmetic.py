@@ -22,8 +22,9 @@ from codegen.run.warm_start import begun
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
     """Return the statements that evaluate the kernel of ``plan``.
 
-    The statements ``after_loops`` are inserted after the last loop that solves equations. If ``counting`` is
-    True, the emitted code counts the sweeps (iterations) of each loop.
+    The statements ``after_loops`` are inserted after the last loop that solves equations. If there is no
+    such loop, they are omitted. If ``counting`` is True, the emitted code counts the sweeps (iterations) of
+    each loop.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
@@ -59,7 +60,7 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # If an output is a local variable of the kernel, no new variable is needed.
+        # If an output is a variable that is not in ``symbols``, this variable already contains the output.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
@@ -93,12 +94,12 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return the emitted function for an outlined part of a kernel.
 
-    An outlined part is a group of formulas with a separate function. The function returns a single result as
-    a value. It writes several results to an array argument.
+    An outlined part is a group of formulas that the kernel uses in several places. The function
+    returns a single result as its value. It writes several results to an array argument.
     """
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # An outlined function solves no equations, so it contains only simple statements.
+        # An outlined part solves no equations, so it contains only simple statements.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
@@ -122,5 +123,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The emitted function does not test ``result`` for NaNs. Other emitted functions test the state.
+    # After an arithmetic error, the emitted function fills ``result`` with NaNs (RAISES_NAN).
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -49,10 +49,10 @@ argument is the number of columns.
 
 @dataclass(frozen=True)
 class ArrayLoops:
-    """Writes assignments of matrices as loops.
+    """Translates assignments of matrices into loops.
 
-    ``arrays`` maps names of matrices to arrays. If ``arrays`` does not contain a matrix, the
-    name of its array is the name of the matrix.
+    ``arrays`` maps names of matrices to arrays. If the name of a matrix is not in ``arrays``, the array of
+    the matrix has the same name as the matrix.
     """
 
     arrays: dict[str, Term]
@@ -60,8 +60,8 @@ class ArrayLoops:
     def array(self, matrix: Matrix, size: int = 0) -> Term:
         """Return the array that contains a matrix.
 
-        If the matrix is not in ``arrays``, the array has the name of the matrix. It has ``size`` entries. If
-        ``size`` is 0, it has as many entries as the matrix.
+        If the name of the matrix is not in ``arrays``, the array has this name and ``size`` entries. The
+        size 0 means that the array has as many entries as the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
@@ -126,8 +126,8 @@ class ArrayLoops:
         """Yield the statements that compute the entries of the target in the given rows and columns.
 
         Each entry is the sum of ``factor(row, k) * other(k, column)`` over k = 0, ..., ``inner`` - 1. If
-        ``added`` is True, the sum is added to the old entry. The statements ``before`` are executed once for
-        each k.
+        ``added`` is True, the sum is added to the old entry. For each k, the statements ``before`` are
+        executed before the products are computed.
         """
         # The sums are scalar variables, so a compiler can keep them in registers. Each result is stored only
         # once, after the loop.
@@ -150,8 +150,8 @@ class ArrayLoops:
     def combination(self, c: Combination) -> Iterator[Statement]:
         """Yield the loops of a linear combination of matrices."""
         target = c.target
-        # All terms with the shape of the target are added in one loop. Each smaller term is added by a
-        # separate loop over the upper left part of the target.
+        # All terms with the shape of the target are added in one loop. A term with fewer rows or columns
+        # is added by a separate loop over the upper left part of the target.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
@@ -166,16 +166,18 @@ class ArrayLoops:
                 continue
             part = target.part(0, 0, *term.shape)
 
-            # The new entry is the old entry plus the entry of the smaller term.
+            # The loop adds the entries of ``term`` to the old entries of the target.
             def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
                 return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
 
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return the entry at ``place`` of a weighted sum of matrices."""
-        # ``terms`` contains only the matrices with the shape of the target. If the list is empty, the entry
-        # is zero.
+        """Return the entry at ``place`` of the sum of ``terms``.
+
+        ``weights`` maps the id of a term to the emitted value of its coefficient (see :meth:`weight`).
+        """
+        # If no term has the shape of the target, ``terms`` is empty, and the entry is zero.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
@@ -225,8 +227,8 @@ class ArrayLoops:
             yield from self.applied_full(a)
             return
         # The loop for the first stored diagonal assigns values to rows of the target. The loops for the other
-        # diagonals add values to rows. If the first diagonal may miss a row, the target is set to zero before
-        # these loops.
+        # diagonals add values to rows. If the first loop does not assign all rows, the target is first set to
+        # zero.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
@@ -243,8 +245,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields statements for a group of columns.
 
-        The statements multiply row ``column`` of ``a.matrix`` by the number :data:`_ENTRY`. They assign the
-        product to row ``row`` of ``a.target``. If ``added`` is True, they add the product to this row.
+        The variable :data:`_ENTRY` contains the entry of the constant matrix in row ``row`` and column
+        ``column``. The statements multiply row ``column`` of ``a.matrix`` by this entry. They assign the
+        product to row ``row`` of ``a.target``, or add it to this row if ``added`` is True.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -258,8 +261,8 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
-        # Each entry of the target in row _ROW is a sum over the index _TERM. In each term, one factor is the
-        # entry of the constant matrix in row i and column j.
+        # In the sum over _TERM, one factor is the entry of C in row i and column j. If C is transposed, the
+        # two indices are exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -268,8 +271,8 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # The statements ``before`` convert the row and the column of the entry to reals. Each term
-                # contains a different entry, so the loop over the terms executes these statements.
+                # The statements ``before`` convert the indices of the entry to reals. One of these indices is
+                # _TERM, so the statements are in the loop over _TERM.
                 before=before,
             )
 
@@ -282,8 +285,8 @@ class ArrayLoops:
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
-            # The entry of the constant matrix is multiplied by column ``row`` of the variable matrix. The
-            # product is added to column ``column`` of the target.
+            # In the product M C, the entry of C in row ``row`` and column ``column`` multiplies column
+            # ``row`` of M. The result is added to column ``column`` of the target.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -314,10 +317,11 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return the list of statements that prepare an entry of a constant matrix, and the entry.
+    """Return the statements that prepare an entry of a constant matrix, and the entry.
 
-    If ``given`` is a tuple of numbers, the list is empty. The entry is read from the table ``table`` at
-    ``place``. If ``given`` is a formula, the statements convert the row and the column to reals.
+    If ``given`` is a tuple of numbers, the entry is read from the table ``table`` at the index ``place``, and
+    there are no statements. If ``given`` is a formula, the statements convert its row and column indices to
+    reals.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
@@ -335,32 +339,32 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # Matrices with the same name differ only in the stage time. Entries that are numbers do not depend on the
-    # time. Therefore one table is enough for each name.
+    # A matrix can occur once for each stage time, with the same name. If its entries are numbers, they do not
+    # depend on the time. Therefore one table is enough for each name.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
                 table_name(c, n),
                 d.entry,
-                f"The entries a[i][{_sum(d.offset)}] of a {c.rows} x {c.columns} matrix.",
+                f"The entries a[i][{_sum(d.offset)}] of a {c.rows} x {c.columns} matrix a.",
             )
             for n, d in enumerate(c.diagonals)
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
-            # A formula needs no table. If the matrix is stored by diagonals, ``c.full`` is an empty tuple.
-            # An empty tuple needs no table.
+            # A formula needs no table. If the matrix is stored by diagonals, ``c.full`` is empty and needs
+            # no table either.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
 
 def _sum(offset: int) -> str:
-    """Return the text of the column index i + ``offset``. For the offset -2 it is ``i - 2``."""
+    """Return the sum i + ``offset`` as text. For the offset -2 it is ``i - 2``."""
     return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
-    # ``entries`` are exact numbers. Each number is rounded only once, in this function.
+    # The exact numbers are rounded only here, because two roundings could change the last digit.
     return tuple(map(precision.round, entries))
 
 
@@ -394,8 +398,8 @@ def _shifted(first: Term | None, column: int) -> Index:
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
     """Return the row and the column of entry number ``place`` of a diagonal."""
     offset = diagonal.offset
-    # A diagonal above the main diagonal begins in row 0. A diagonal below the main diagonal begins in column
-    # 0.
+    # The offset is the column minus the row. If it is negative, the diagonal begins in column 0, otherwise in
+    # row 0.
     if not offset:
         return place, place
     return (place + -offset, place) if offset < 0 else (place, place + offset)
@@ -422,7 +426,7 @@ def _is_whole(matrix: Matrix) -> bool:
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if the first stored diagonal of a matrix has an entry in every row and every column."""
+    """Return True if the matrix is square and its first stored diagonal is the main diagonal."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -435,8 +439,8 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and a product: the coefficient of ``term`` times ``entry``.
 
-    If ``total`` is None, return only the product. The argument ``weight`` is the emitted value of the
-    coefficient. If the coefficient is 1 or -1, ``weight`` is None.
+    If ``total`` is None, return only the product. ``weight`` is the variable or number that contains the
+    coefficient in the emitted code. If the coefficient is 1 or -1, ``weight`` is None.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

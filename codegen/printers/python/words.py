@@ -26,7 +26,7 @@ _PUBLIC = """
 PUBLIC = frozenset(_PUBLIC.split())
 """Names of the arguments and local variables of the public functions in a module.
 
-A run-time parameter of the scene must not have such a name in the module.
+A run-time parameter with such a name gets another identifier in the module.
 """
 
 _INTEGRATION = """
@@ -37,5 +37,5 @@ _INTEGRATION = """
 INTEGRATION = frozenset(_INTEGRATION.split())
 """Names that a module needs for its function ``integrate``, which integrates to a given end time.
 
-A module without this function does not reserve these names.
+These names are reserved only in a module with this function.
 """
