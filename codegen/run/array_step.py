@@ -58,16 +58,16 @@ RECIPROCALS = "reciprocal"
 MOST_PARTS = 2**20
 """The largest number of equal factors into which a matrix exponential is split.
 
-The number of factors is doubled until the exponent of each factor has a norm of at most 1. The doubling also
-stops at ``MOST_PARTS`` factors."""
+The number of factors is doubled until the exponent of each factor has a norm of at most 1, or until the
+number is ``MOST_PARTS``."""
 
 _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # A ``Move`` computes the product of a matrix exponential and a point. Several moves may call the same
-    # emitted function. ``moves`` maps the name of this function to the first of these moves.
+    # A ``Move`` multiplies a point by a matrix exponential. Several moves can call the same emitted function.
+    # For each function name, ``moves`` contains the first move that calls this function.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
         # The sizes of the arrays are constants in an emitted function. Therefore all moves that call the same
@@ -87,17 +87,17 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 def _name(move: Move) -> str:
     """Return the name of the function that multiplies the matrix exponential of a move by a point.
 
-    The name contains the number of rows of the core. If there is a start point, the name also contains its
-    number of rows. An example is ``exponential4_from2``.
+    The name contains the number of rows of the core. If the move has a matrix ``start``, the name also
+    contains the number of rows of ``start``. An example is ``exponential4_from2``.
     """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
 
 def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
-    """Return the pair (rows, columns) of each matrix of a move.
+    """Return the numbers of rows and columns of the matrices of a move.
 
-    The order is core, Gram matrix, target, start point. The last pair is None if there is no start point.
+    The order is ``core``, ``gram``, ``target``, ``start``. If ``start`` is None, the last entry is None.
     """
     matrices = (move.core, move.gram, move.target, move.start)
     return tuple(None if x is None else (x.rows, x.columns) for x in matrices)
@@ -150,8 +150,7 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # Several statements may assign to different blocks of one array. ``end`` is the size that the array
-        # needs for the block ``target``.
+        # A target may be a block of a larger array. This array needs at least ``end`` entries.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -174,14 +173,14 @@ class _Exponential:
     precision: Precision
 
     def function(self) -> Function:
-        """Return the function that computes the displacement of exp(B S B^T) X.
+        """Return the function that multiplies a point X by exp(B S B^T).
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
         (:mod:`codegen.ir.array_step`). Let the n x k matrix X_0 be the state at the beginning of the step.
-        The displacement of a point X is the matrix D with X = X_0 + B D.
+        The point X = X_0 + B D is stored as the matrix D, its displacement.
 
         The first k columns of B are X_0. Let C be the sum of D and the first k columns of the unit matrix.
-        Then X = B C. The displacement of exp(B S B^T) X is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
+        Then X = B C. The displacement of the product is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z.
         If the norm of B S B^T exceeds 1, the exponential is split into equal factors. X is multiplied by
         these factors one after another.
         """
@@ -191,8 +190,8 @@ class _Exponential:
         target = Matrix("result", move.target.rows, k)
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
-        # ``matrix`` is the product of the Gram matrix and the core. ``total`` is the sum of a series of
-        # matrices. ``term`` is the current term of the series. ``next`` stores intermediate products.
+        # ``matrix`` is the product G S. ``total`` and ``term`` are the sum and the current term of the series
+        # for phi(G S) G C. ``next`` stores intermediate products.
         self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -203,9 +202,9 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            "Compute the displacement of the point exp(B S B^T) X. Every point is a matrix X_0 + B D, where "
-            "X_0 is the state at the beginning of the step. The matrix D is the displacement of the point. "
-            f"The argument core is S, a matrix with {m} rows. The argument gram is the matrix B^T B."
+            "Multiply the point X by the matrix exponential exp(B S B^T). The matrix B is the basis of the "
+            "step, and X_0 is the state at the beginning of the step. The point X_0 + B D is stored as its "
+            f"displacement D. The argument core is the {m} x {m} matrix S. The argument gram is B^T B."
         )
         return Function(self.name, about, parameters, tuple(body))
 
@@ -234,14 +233,14 @@ class _Exponential:
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
-        # Multiplication by 1/2 is exact, so ``scale`` times ``parts`` is exactly 1.
+        # ``scale`` is 1/``parts``. It has no rounding error, because it is a power of 2.
         halved = (Assign(scale, 0.5 * scale), Assign(parts, 2 * parts))
         yield While(both(norm * scale > 1.0, parts < MOST_PARTS), halved)
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # The largest number of factors may be too small. Then the exponent of each factor has a norm above 1,
-        # and the result is filled with NaNs. The test of the new state finds these NaNs.
+        # If the norm is very large, even ``MOST_PARTS`` factors are too few, and the series is inaccurate.
+        # Therefore the result is filled with NaNs. The test of the new state finds these NaNs.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -250,9 +249,9 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute ``terms``, the number of terms in the series of phi.
+        """Yield the statements that compute the number of terms in the series of phi(z) = (exp(z) - 1)/z.
 
-        The constant term 1 is not counted. ``size`` is the norm of the exponent.
+        The constant term 1 is not counted. ``size`` is the norm of the matrix z.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The last included term of the
@@ -271,8 +270,8 @@ class _Exponential:
     def begun(self) -> Iterator[Statement]:
         """Yield the statements that set the displacement to its initial value.
 
-        The initial value is ``start``, extended by rows of zeros. If ``start`` is None, the initial value is
-        the zero matrix.
+        The initial value is ``self.start``, extended by rows of zeros. If ``self.start`` is None, the initial
+        value is the zero matrix.
         """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
@@ -294,24 +293,24 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # The product G D is added to ``total``. If ``start`` is None, D is zero for the first factor
-        # (``part`` = 0). This factor needs no product G D.
+        # The product G D is added to ``total``. If ``self.start`` is None, D is zero when ``part`` is 0.
+        # In this case the product is omitted.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # Let z be ``scale`` times G S. The following loop adds the terms z^j/(j + 1)! B^T X for j = 1, 2, ...
-        # to ``total``. Term j is z/(j + 1) times term j - 1.
+        # Let S be the core, and let z be ``scale`` times G S. The loop adds the terms z^j/(j + 1)! B^T X for
+        # j = 1, 2, ... to ``total``. Term j is z/(j + 1) times term j - 1.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        # ``total`` is now the sum of the series. The matrix ``next`` is set to the product of the core and
-        # ``total``. Then ``scale`` times ``next`` is added to the displacement.
+        # ``total`` is now the sum of the series. The product of ``scale``, the core and ``total`` is added to
+        # the displacement.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

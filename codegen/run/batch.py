@@ -3,10 +3,11 @@
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
 In an array of the batch, component k of lane i has the index ``k * stride + i``.
 
-An explicit kernel is evaluated by one loop over many lanes. The loop has no branches, so compilers can use
+An explicit step is computed by one loop over many lanes. The loop has no branches, so compilers can use
 vector instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near
-zero. For all other arguments they return NaN. If the new state of a lane is not finite, the scalar step is
-called for this lane. In all other lanes, the result has the same rounding errors as the scalar step.
+zero. For all other arguments they return NaN. If the new state of a lane is not finite, the step function
+for one system (the scalar step) is called for this lane. In all other lanes, the result has the same rounding
+errors as the scalar step.
 
 Some steps cannot be computed by one loop without branches. An example is a step that solves equations. For
 these steps, the function ``run`` is called for each lane. The function :func:`obstacle` returns the reason
@@ -68,7 +69,7 @@ lanes."""
 BLOCK = 128
 """The number of lanes in a block.
 
-A block makes all its steps in one loop, so that the states of its lanes stay in the cache."""
+All steps of a block are made one after another. This keeps the states of its lanes in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The names of functions that can be computed without branches.
@@ -102,11 +103,11 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return '' if one loop can advance all lanes. Otherwise return the reason why this is not possible."""
     kernel = plan.kernel
-    # Equations are solved by iteration. One lane may need more sweeps (iterations) than another lane.
+    # Equations are solved by iteration. Some lanes may need more iterations than others.
     if kernel.loops:
-        return "the lanes need different numbers of sweeps to solve their equations"
+        return "the lanes need different numbers of iterations to solve their equations"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
-        return "a step calls several functions, so it is not a single loop over lanes"
+        return "a step calls several functions, so one loop over lanes cannot compute the step"
     if not kernel.outputs or kernel.outlined:
         return "the loop over lanes cannot pass arrays to the functions that a step calls"
     # A branch in the loop over lanes would prevent vector instructions.
@@ -117,7 +118,7 @@ def obstacle(plan: Plan) -> str:
 
 
 def called_by(body: Iterable[Statement]) -> set[str]:
-    """Return the names of all functions that the statements call, inside or outside expressions."""
+    """Return the names of all functions that the statements call."""
     listed = list(statements(body))
     values = [term.value for term in terms(listed) if term.value is not None]
     return {str(n.payload) for n in walk(values) if n.op == "call"} | {
@@ -174,8 +175,9 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # All values x of the new state must be finite. If the kernel does not read a component of the old state,
-    # this component must be finite, too. The difference x - x is 0 if x is finite. Otherwise it is NaN.
+    # All values x of the new state must be finite. A NaN in a component that the kernel does not read would
+    # not appear in the new state, so these components of the old state are tested, too. The
+    # difference x - x is 0 if x is finite. Otherwise it is NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -200,7 +202,7 @@ def _advance_lanes(plan: Plan) -> Function:
     about = (
         "Make one step of the lanes first, ..., first + number - 1. The loop over lanes has no branches, so "
         "compilers can use vector instructions. A lane keeps its state if it has stopped, or if its new "
-        "state is not finite. Its entry in the array failed is then 1. The entries of all other lanes are 0."
+        "state is not finite. For these lanes, the entries of failed are 1. All other entries are 0."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)
@@ -237,7 +239,7 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
     flag = Term("name", (), Kind.FLAG, bad.text)
     first = select(flag, code(BAD_STEP), code(OK))
     body: list[Statement] = [
-        # If the batch makes no step, the step size is not tested.
+        # Without steps, the step size has no effect, so it is not tested.
         Assign(flag, both(STEPS > 0, negated(is_finite(STEP)))),
         # Every lane gets a status, even if the batch makes no step.
         For(_LANE, _TOTAL, (Assign(statuses[_LANE], first), Assign(ended[_LANE], whole(0)))),

@@ -5,8 +5,8 @@ has a finite result, the failed step was too long, and the status is TOO_FAR. Fo
 large that it had no correct digit, a formula had a pole, or a number overflowed. If the step of size zero
 also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
 
-Steps with a warm start do not call this function. If such a step fails, the continuation finds the cause
-(:mod:`codegen.run.continuation`).
+Steps with run-time inputs or a warm start do not call this function. If a step with a warm start fails, the
+continuation finds the cause (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -22,26 +22,26 @@ CAUSE = "cause"
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
     # If there is a warm start, the continuation finds the cause. A step of size zero reads run-time inputs
-    # only at its initial time. The failed step also read inputs at later times, and these inputs may be the
-    # cause.
+    # only at its initial time. Therefore it cannot show that an input at a later time is the cause.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. Its arguments are the state, the time, the step
-    size, and the terms ``more``. If the step does not depend on the time, it has no argument for the time.
+    ``core`` is the name of the function that makes a step. The arguments of this function are the state, the
+    time, the step size, and ``more``. If the step does not depend on the time, there is no argument for the
+    time.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
-    # The test uses a new, empty memory, so it does not depend on data from earlier steps.
+    # The step of size zero uses a new, empty memory, so it does not depend on data from earlier steps.
     memory = [Array(plan.memories, zero=True)] if plan.remembers else []
     body: tuple[Statement, ...] = (
         Array(same),
         Assign(same, state),
         *memory,
-        # For a constant argument, a compiler may add a second copy of the function to the program. The
+        # If the step size is a constant, a compiler may generate a second copy of the step function. The
         # product ``0 * h`` is not a constant and avoids this copy.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
@@ -57,7 +57,8 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments that a step function has after the step size."""
     # The step of size zero is only a test, so the statistics of the caller do not count it.
     counted = tuple(absent(x) for x in plan.counted)
-    # The test needs no error estimate. A step that consists of substeps has no argument for an estimate.
+    # A step of size zero needs no error estimate. If a step consists of substeps, its function has no
+    # argument for an estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
 

@@ -6,8 +6,8 @@ are bad initial guesses. If the first attempt fails, the step is halved until an
 solution is then the initial guess for a longer step. The ratio of two consecutive step sizes is increased
 after a success and reduced after a failure.
 
-The equations of a long step may have several solutions. If h grows from 0, one of these solutions changes
-continuously. The continuation finds this solution.
+The equations of a long step may have several solutions. The continuation finds the solution that changes
+continuously as h grows from 0.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
 def continued(plan: Plan, core: str) -> Function:
     """Return the function that repeats a failed step or substep by continuation in h.
 
-    ``core`` is the name of the function that failed.
+    ``core`` is the name of the function that makes one step or substep.
     """
     return _Continuation(plan, core).function()
 
@@ -77,8 +77,8 @@ class _Continuation:
     The class attributes are variables of this function.
     """
 
-    # All steps of the continuation are fractions of h. ``solved`` is the largest fraction that succeeded,
-    # ``part`` is the current fraction, and ``factor`` is the ratio of two consecutive fractions.
+    # The current attempt has the step size ``part`` times h. ``solved`` is the largest fraction of h that
+    # succeeded. After the first success, the next fraction is ``factor`` times ``solved``.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -93,7 +93,7 @@ class _Continuation:
         """Return the emitted function that repeats a failed step."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # The continuation stores its solution in the memory of the run. The solution is the initial guess of
+        # The continuation stores its solution in ``memory``, because this solution is the initial guess of
         # the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of size zero leaves the state unchanged. The step succeeds if the state is finite.
@@ -128,8 +128,8 @@ class _Continuation:
         part = "substep" if plan.parts else "step"
         # If a step consists of substeps, the function repeats only the substep that failed.
         about = (
-            f"Repeat a {part} whose equations did not converge. The first attempt ignores the solutions of "
-            "earlier steps, because they are bad initial guesses if the motion has changed. Then shorter "
+            f"Repeat a {part} that failed. The first attempt ignores the solutions of earlier steps, because "
+            "they are bad initial guesses if the motion has changed. If the first attempt fails, shorter "
             "steps are tried. Each solution is the initial guess for a longer step (continuation in h)."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
@@ -137,11 +137,11 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        This is the status of the last failed attempt. If a shorter step succeeded, NOT_FINITE is replaced by
-        TOO_FAR. With run-time inputs, NOT_FINITE is not replaced.
+        This is the status of the last failed attempt. If a shorter step succeeded and there are no run-time
+        inputs, NOT_FINITE is replaced by TOO_FAR.
         """
-        # A shorter step reads the run-time inputs at other times. If a shorter step succeeds, an input may
-        # therefore be the cause of the failure.
+        # A shorter step reads the run-time inputs at other times. Even if a shorter step succeeds, the cause
+        # may be an input and not the step size.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -154,8 +154,8 @@ class _Continuation:
         """
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The stored rates of convergence belong to another step size, so they are set to 1. With the rate 1,
-        # the predicted next change of the unknowns equals the change in the first sweep.
+        # If ``known`` is 1, the stopping rule reads rates of convergence from the memory. No rates are known
+        # for this step size, so the default value 1 is stored.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
