@@ -1,9 +1,9 @@
 """A run to a given end time, with output at given times, with events, and with a largest number of steps.
 
-Step control chooses the step sizes between two bounds. Without step control, all steps except the last have
-the same size. A run ends early if the largest number of steps is reached, if an event ends it, or if a step
-fails. The caller receives the last accepted state and its time, and can continue the run from there. A run
-with step control also returns the size of the next step.
+Step control chooses the step sizes between two bounds, but the last step may be shorter. Without step
+control, all steps except the last have the same size. A run ends early if the largest number of steps is
+reached, if an event ends it, or if a step fails. The caller receives the last accepted state and its time,
+and can continue the run from there. A run with step control also returns the size of the next step.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # Events of all event functions may coincide. Therefore the buffer needs one entry for each event
-    # function.
+    # All event functions may have an event at the same time. Therefore the buffer needs one entry for each
+    # event function.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -109,7 +109,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If ``own_step`` is False, each step calls ``run``. The function ``run`` declares its own memory.
+            # If ``own_step`` is False, ``run`` makes the steps, and ``run`` declares its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -122,11 +122,10 @@ class _Constant:
 
     @property
     def own_step(self) -> bool:
-        """True if each step calls the emitted function that makes one step. False if each step calls
-        ``run``."""
+        """True if each step calls the function ADVANCE. False if each step calls ``run``."""
         plan = self.plan
-        # If the kernel is inlined in ``run``, no separate function makes one step. Deferred flows and
-        # conversions of the momentum are statements of ``run``, so ``run`` is called in these cases, too.
+        # An inlined kernel has no function ADVANCE. With deferred flows or conversions of the momentum,
+        # ADVANCE makes only a part of a step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -143,7 +142,8 @@ class _Constant:
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.taken, signed),
-            # Each time is computed from the initial time, so that rounding errors do not accumulate.
+            # The new time is computed from the initial time, because a sum of step sizes would accumulate
+            # rounding errors.
             Assign(self.following, select(near, self.end, following)),
             # The last step covers exactly the rest of the interval.
             Assign(self.taken, select(near, self.left, signed)),
@@ -169,8 +169,8 @@ class _Constant:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # Each call of ``run`` makes one step. The trajectory and the number of completed steps are not
-        # needed.
+        # ``run`` is called for one step. Its outputs for the trajectory and for the number of completed steps
+        # are omitted.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))

@@ -1,9 +1,10 @@
 """The derivative of a step with respect to the initial state, as a matrix.
 
-A tangent vector at the initial state is called a variation. The linearised step maps it to a tangent vector
-at the final state. Column k of the matrix is the result for the unit vector k. In an implicit step, the
-derivatives of the unknowns satisfy linear equations. These equations are solved by fixed-point iteration,
-even if the step uses Newton's method. If the iteration does not converge, the call fails.
+A tangent vector at the initial state is called a variation. The linearised step maps a variation to a tangent
+vector at the final state. For the unit vector k, this tangent vector is column k of the matrix. In an
+implicit step, the derivatives of the unknowns satisfy linear equations. These equations are solved by
+fixed-point iteration, even if the step uses Newton's method. If the iteration does not converge, the call
+fails.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         # The iterations in ``vary`` are not counted, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
-        # The test comes before the assignment, so that ``vector`` is unchanged after a failure.
+        # The test comes before the assignment. Therefore a failure leaves ``vector`` unchanged.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -103,13 +104,13 @@ class _Jacobian:
         """Return the emitted function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # The run-time inputs are constant during the step, as in the public function ``step``.
+        # The run-time inputs are constant during the step, so the caller gives an array of values.
         given = (self.given,) if plan.held else ()
-        # After the call of ``vary``, ``vector`` is one column. The matrix is stored row by row.
+        # ``vector`` contains one column of the Jacobian matrix. The matrix is stored row by row.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
-            # From a unit vector, ``vary`` computes one column of the matrix.
+            # The columns of the Jacobian matrix are computed from unit vectors.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
             If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
@@ -139,7 +140,7 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # A memory contains initial guesses for one substep, so each substep has its own memory.
+        # A substep stores data of its equations in a memory, so each substep has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
         # These substeps only provide the states for ``vary``. The caller's statistics do not count these
@@ -161,7 +162,7 @@ class _Jacobian:
             # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # After a failure, the loop ends, and ``part`` is not used again.
+            # After a failure, this increment has no effect, because the loop ends.
             Assign(part, part + 1),
         )
         return [

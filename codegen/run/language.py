@@ -1,16 +1,16 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-The code around a kernel contains, for example, stopping rules and step control. It is written once in this
-representation. Printers translate it to C and Python. The module :mod:`codegen.run.execute` executes it, for
-example with doubles or with exact numbers.
+The code around a kernel contains, for example, stopping rules and step control. Printers translate the
+representation of this code to C and Python. The module :mod:`codegen.run.execute` executes the
+representation, for example with doubles or with exact numbers.
 
-Because of the following rules, the representation can also be translated to array languages. In an array
-language, a loop is a ``while_loop`` and a branch is a ``select``.
+Because of the following rules, the representation can also be translated to array languages. Array languages
+express a loop by ``while_loop`` and a branch by ``select``.
 
 - A loop ends only at its test, which may read a status or flag. There is no ``break`` statement.
 - A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. An If with a
-  Return is not inside a loop or another If. After this Return, an array language may still execute the rest
-  of the function and discard the results.
+  Return is not inside a loop or another If. Therefore an array language may execute the rest of the function
+  in every case, and discard the results after a Return.
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
@@ -36,7 +36,10 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record with the entries ``values``. If ``zero`` is True, they are 0."""
+    """The declaration of an array or record with the entries ``values``.
+
+    If ``zero`` is True, all entries are 0.
+    """
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -51,7 +54,7 @@ class For:
     - ``reverse`` is True if the index runs from count - 1 down to 0.
     - ``independent`` is True if several iterations may be executed at once by vector instructions.
     - ``parallel`` is True if the iterations may be executed in any order and on several processors. Scalar
-      variables from outside the loop are then constant in the loop, apart from those in ``reductions``.
+      variables from outside the loop must be constant in the loop, apart from those in ``reductions``.
     - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. The variable is the sum
       or the maximum of values that the iterations compute.
     - ``when`` is a test or None. If the test fails, the loop is executed on one processor.
@@ -61,7 +64,7 @@ class For:
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
-    # A loop that calls functions may be parallel, but compilers cannot vectorise this loop. The loop is not
+    # Compilers cannot vectorise a loop that calls functions. Such a loop may be parallel, but it is not
     # independent.
     independent: bool = False
     parallel: bool = False
@@ -129,7 +132,7 @@ Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
 # After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. A guard
-# catches the exception, so that a function returns the same result in both languages.
+# catches the exception, and the function returns the same result as in C.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``.
 
@@ -194,7 +197,7 @@ class Unit:
     """All emitted code of one kernel: its records, tables and functions.
 
     Each function comes after the functions that it calls. ``scalars`` contains the names of t, h and the
-    parameters of the kernel. In each function, the identifiers of these names are chosen first.
+    parameters of the kernel. The identifiers of these names do not depend on other names in the kernel.
     """
 
     scalars: tuple[str, ...]
@@ -296,11 +299,10 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement reads. The bodies of a loop or branch are not searched.
 
-    If a statement assigns one entry of an array, the name of the array is included.
+    An assignment to one entry of an array also counts as reading the array.
     """
     given = assigned(statement)
-    # An assignment to a whole array does not read the array. An assignment to one entry keeps the other
-    # entries, so it counts as reading the array.
+    # An assignment to one entry keeps the other entries. An assignment to the whole array keeps no entry.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

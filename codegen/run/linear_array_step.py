@@ -1,10 +1,10 @@
 """The emitted functions for a step of a large linear problem y' = A(t) y.
 
 A step multiplies the vector y by exponentials exp(X) of matrices X (:mod:`codegen.ir.linear_array_step`). In
-this module, the norm of a matrix is the largest row sum of absolute values. The matrix X is halved s times,
-so that the norm becomes small. Then y is multiplied 2^s times by a Taylor polynomial of exp(2^-s X)
-(A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The truncation error of the polynomial,
-relative to y, is about 2^-10 times the unit roundoff (:mod:`codegen.ir.exponential_action`).
+this module, the norm of a matrix is the largest row sum of absolute values. First X is halved s times, until
+its norm is small. Then y is multiplied 2^s times by a Taylor polynomial of exp(2^-s X) (A. H. Al-Mohy and
+N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The truncation error of the polynomial, relative to y, is
+about 2^-10 times the unit roundoff (:mod:`codegen.ir.exponential_action`).
 
 If X contains commutators, an upper bound of its norm is used. The upper bound of a sum is the sum of the
 upper bounds of its terms. The upper bound of a commutator Y Z - Z Y is twice the product of the upper bounds
@@ -63,8 +63,8 @@ from codegen.run.terms import (
 HALVINGS = 16
 """The largest number s of halvings of the matrix in an exponential.
 
-The state is multiplied 2^s times by a Taylor polynomial. With s = 16, this takes seconds for a tridiagonal
-matrix with 1000 rows. If a step needs more halvings, it fails with the status TOO_FAR.
+The state is multiplied 2^s times by a Taylor polynomial. With s = 16, these multiplications take seconds
+for a tridiagonal matrix with 1000 rows. If a step needs more halvings, it fails with the status TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -128,8 +128,8 @@ class _Step:
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # If two elements are equal but are different objects, their function is listed twice. ``_unique``
-        # removes the repetition.
+        # If two objects are equal elements, the same function is listed twice. ``_unique`` removes the
+        # repetition.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -150,7 +150,7 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # Elements inside commutators are numbered first, and all other elements are numbered after them.
+        # The functions are numbered in the order in which they are emitted.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -165,7 +165,7 @@ class _Step:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
         ``done`` contains ``id(e)`` for each element e that already has a function. The method adds
-        ``id(element)``.
+        ``id(element)`` to ``done``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
@@ -190,7 +190,7 @@ class _Step:
         The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # ``letters`` accepts only elements. This element is the commutator times 1.
+        # The argument of ``letters`` must be an element. Here it is 1 times the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -233,15 +233,15 @@ class _Step:
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
-        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. Coefficients
-        # 1/j! would be rounded, and their errors would be the same in all steps.
+        # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. Rounded
+        # coefficients 1/j! would cause a systematic error, because it would be the same in all steps.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # After the loop, ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
+        # After Horner's rule, ``weight`` is m!, and the Taylor polynomial of exp(b) y is y + b (p/m!).
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
@@ -256,10 +256,10 @@ class _Step:
         body: tuple[Statement, ...] = (
             *map(Array, (p, work)),
             *norms,
-            # An infinite norm would remain infinite after any number of halvings.
+            # Halving X cannot make an infinite norm finite.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
-            # If X contains commutators, half the letters do not give half of X. Therefore the letters are not
-            # scaled. Each product of X and a vector is multiplied by ``scale`` instead.
+            # Commutators are not linear in the letters, so scaled letters would not give a scaled X.
+            # Instead, each product of X and a vector is multiplied by ``scale``.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -270,7 +270,7 @@ class _Step:
             Return(code(OK)),
         )
         what = self.text(element) if element.commutators else "a"
-        about = f"state = exp(X) state for X = {what}, by Taylor polynomials of X 2^-s."
+        about = f"state = exp(X) state for X = {what}, by scaling and Taylor polynomials."
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:
@@ -280,7 +280,7 @@ class _Step:
         """
         body: list[Statement] = []
         bounds: dict[int, Term] = {}
-        # The indices are sorted, so that the emitted statements always have the same order.
+        # Sorting gives the emitted statements a fixed order.
         for k in sorted(self._letters(element)):
             body.append(Call(ROW_SUM, (self.letter(k),), (real(f"norm_{k + 1}"),)))
 
@@ -312,17 +312,17 @@ class _Step:
         letters = [self.letter(k) for k in range(len(step.letters))]
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
-            # If the matrix is banded, some entries of the array are outside the matrix. These entries must be
-            # zero.
+            # In the array of a banded matrix, short diagonals leave entries unused. The row sums read these
+            # entries, so they must be zero.
             *(Array(node, zero=True) for node in nodes),
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
-            # Names in the kernel contain no spaces, so this name is new.
+            # Names in the kernel contain no spaces. Therefore the space in this name prevents a conflict.
             at = own(f"time {k + 1}")
             # ``at`` is the time t_i. If the matrix does not depend on t, this time is not computed.
             body += [Assign(at, value(time))] if plan.time else []
-            # The function VALUE evaluates the matrix at the time t_i instead of t.
+            # The matrix is evaluated at t_i, so t_i replaces t in the arguments of VALUE.
             moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
             arguments = (*(x for x in moment if self.takes(x)), *plan.parameters, node)
             body.append(Call(VALUE, arguments))
@@ -345,8 +345,8 @@ class _Step:
 
         ``x`` is the time t or the step size h.
         """
-        # For a banded matrix, the function computes h A(t), so h is an argument. For a full matrix, the
-        # function computes only subexpressions of A(t).
+        # For a banded matrix, the function computes h A(t). For a full matrix, the function computes
+        # subexpressions of A(t), which do not contain h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
