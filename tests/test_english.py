@@ -48,7 +48,7 @@ PHRASES = {
     "depend on the others at the decimals": "only M of the N conditions are independent near these decimals",
     "owe nothing to the manifold": "do not preserve the manifold",
     "the order of things turns round": "If the fast part has an exact flow, the ranking reverses.",
-    "how the first of some steps begins": "First flow of a step, if the step before does not include it.",
+    "how the first of some steps begins": "Apply the first flow of a step, unless ...",
     "of a state with the other": "Convert body momentum to space momentum.",
 }
 """A phrase, or the part of it that every form has, and what to write instead."""

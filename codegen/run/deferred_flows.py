@@ -1,12 +1,13 @@
 """Runs of a splitting method that defer flows to later steps.
 
 The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
-all other flows are applied once for many steps. In exact arithmetic, the result is the same as without
-deferred flows (:class:`codegen.ir.kernel.Deferred`).
+all other flows are applied once for many steps. In exact arithmetic, deferring flows does not change the
+result (:class:`codegen.ir.kernel.Deferred`).
 
 A state is complete only after the deferred flows have been applied. The run applies the deferred flows before
 it writes a state to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps.
-Only complete states are tested. A NaN remains in the state, so a test also finds a NaN from an earlier step.
+Only complete states are tested for infinities and NaNs. A non-finite state remains non-finite in later steps,
+so the next test finds it.
 If a complete state is not finite, the run is repeated from the beginning, and no flow is deferred. The
 repeated run finds the last finite state.
 """
@@ -79,11 +80,11 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(
                 _plan(plan, deferred.begin),
                 BEGIN,
-                "First flow of a step, if the step before does not include it.",
+                "Apply the first flow of a step, unless the previous step includes it.",
             )
         )
     if deferred.finish is not None:
-        about = "Flows that commute with all other flows, applied once for many steps."
+        about = "Apply the flows that commute with all other flows."
         sequence.append(_core(_plan(plan, deferred.finish), FINISH, about))
     deferring = _Deferring(plan, deferred)
     return (
@@ -96,16 +97,16 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # A splitting has no implicit equations, so the value of ``tries`` is not needed.
+    # A splitting solves no implicit equations, so it needs no limit ``tries`` of the attempts to solve them.
     return Plan(kernel, plan.format)
 
 
 def _core(plan: Plan, name: str, about: str) -> Function:
-    """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
+    """Return a function that applies the kernel of ``plan`` to the state. The new state is not tested."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The callers test the state after they have applied all deferred flows. Until this test, a NaN or an
-    # infinity cannot disappear from the state.
+    # The callers test the state after all deferred flows have been applied. Until then, a non-finite state
+    # remains non-finite.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -121,9 +122,9 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 
 
 class _Deferring:
-    """Builds the public functions ``step`` and ``run``.
+    """Builds the emitted functions ``step``, ``run`` and COMPLETE.
 
-    The class attributes are variables of the emitted functions.
+    The class attributes are local variables of these functions.
     """
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
@@ -146,9 +147,9 @@ class _Deferring:
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return a list that contains the call of the function ``name``.
+        """Return a list with the call of the function ``name``. If ``kernel`` is None, return an empty list.
 
-        The function applies ``kernel`` to the state. If ``kernel`` is None, the list is empty.
+        The function applies ``kernel`` at the time ``t``. Deferred flows have the duration ``elapsed``.
         """
         if kernel is None:
             return []
@@ -181,28 +182,28 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # The caller reads the new state, so the flows in FINISH are not deferred.
+            # The new state must be complete, so the flows in FINISH are not deferred.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
             Return(code(OK)),
         )
-        # A splitting has no implicit equations, so it has no statistics of iterations.
+        # A splitting has no implicit equations, so there is no argument for iteration statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function(
-            COMPLETE, "One complete step: no flow is deferred to a later step.", parameters, body, Kind.STATUS
+            COMPLETE, "Make one step. No flow is deferred to a later step.", parameters, body, Kind.STATUS
         )
 
     def run(self) -> Function:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
-        # The step size and the state are tested only if there are steps.
+        # A run of zero steps does not change the state, so it tests neither the step size nor the state.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
         # If the initial state is not finite, every attempt would fail, so no step is made.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # The run shall make STEPS steps. If a step fails, the number ``asked`` is reduced.
+            # If a step fails, ``asked`` becomes the number of successful steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -210,9 +211,9 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts. The first attempt defers flows. If it fails, the second
-            # attempt applies all flows in every step and finds the step that fails. The third attempt ends
-            # before this step.
+            # There are at most three attempts. The first attempt defers flows. If the first attempt fails,
+            # the second attempt applies all flows in every step and finds the failing step. The third attempt
+            # ends before the failing step.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             # If a step failed, ``asked`` is the number of successful steps. The failed step begins at the
@@ -232,8 +233,8 @@ class _Deferring:
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # When an attempt begins, no flow has been applied, so ``begun`` is False. Without the function BEGIN,
-        # the emitted code does not contain ``begun``.
+        # At the beginning of an attempt, no flow has been applied. If there is no function BEGIN, the
+        # emitted code does not use ``begun``.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -241,7 +242,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # The array ``complete`` contains the initial state or the last complete state that was finite.
+            # ``complete`` is the last state that was complete and finite. At first it is the initial state.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
@@ -256,26 +257,25 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # Here LATE includes the current step. The product of LATE and h has a single rounding error. A
-        # repeated addition of h would cause one rounding error for each step.
+        # When the emitted code evaluates ``elapsed``, LATE includes the current step. The product LATE * h
+        # has one rounding error. Repeated additions of h would have one rounding error for each step.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps, the deferred flows are always applied. Otherwise the angle of a deferred
-            # rotation could be very large, and its sine and cosine would have few correct digits.
+            # After LONGEST steps, the deferred flows are always applied. Without this limit, the angle of a
+            # deferred rotation could be very large, and its sine and cosine would have few correct digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If ``stop`` is True, the last flow of this step has the duration ``last`` times h. Otherwise
-                # the last flow includes the first flow of the next step. Its duration is ``later`` times h.
+                # If ``stop`` is False, the last flow of this step includes the first flow of the next step.
+                # Therefore the last flow has another duration.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
             ]
-        # The last flow in the kernel has the duration ``lead``.
         sequence += self.call(ADVANCE, self.plan.kernel, t, elapsed)
         taken = (
             Assign(LATE, whole(0)),

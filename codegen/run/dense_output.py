@@ -1,7 +1,8 @@
 """Emitted functions of a continuous extension (dense output) of a step.
 
 The function EXTEND computes the coefficients of the extension. A call of EXTEND costs about as much as a
-step. The function EXTENDED computes a state inside the step. It evaluates a polynomial and one exponential.
+step. The function EXTENDED computes a state inside the step. For this, EXTENDED evaluates a polynomial with
+values in the Lie algebra, and one exponential.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
 """The names of three emitted functions of a continuous extension.
 
 - EXTEND computes the coefficients of the extension.
-- MOVED applies an exponential to a state.
+- MOVED applies exp(x) to a state, where x is an element of the Lie algebra.
 - EXTENDED computes the state at a time inside the step.
 """
 
@@ -30,8 +31,8 @@ class DenseOutput:
         self.plan, self.extension = plan, extension
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
-        # The kernel ``extension.moved`` applies the exponential of an element of the Lie algebra to a state.
-        # The inputs are the state and the coordinates of the element. ``width`` is the number of coordinates.
+        # The kernel ``extension.moved`` applies exp(x) to a state, where x is an element of the Lie algebra.
+        # Its inputs are the state and the coordinates of x. ``width`` is the number of coordinates of x.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
@@ -46,7 +47,7 @@ class DenseOutput:
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:
-        """Return the emitted function that computes the coefficients of the polynomial in theta."""
+        """Return the emitted function that computes the coefficients of the extension."""
         own, state = self.own, self.plan.state()
         body: list[Statement] = [
             *sampled(own),
@@ -56,8 +57,8 @@ class DenseOutput:
         ]
         parameters = (state, *own.moment(), *own.parameters, *own.sampled(), self.powers)
         about = (
-            "In the continuous extension of a step, the coordinates are polynomials in theta. Compute their "
-            "coefficients of theta, theta^2, ..."
+            "The continuous extension of a step applies exp(x) to the old state, where x is a polynomial in "
+            "theta. Compute the coefficients of theta, theta^2, ... in x."
         )
         return Function(EXTEND, about, parameters, tuple(body), guard=RAISES_NAN)
 
@@ -71,7 +72,7 @@ class DenseOutput:
         # At theta = 0 all coordinates are zero, so their polynomials in theta have no constant term. Horner's
         # rule computes a polynomial divided by theta. The result is then multiplied by theta.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The array ``pair`` is the argument of MOVED. It contains the state and then the coordinates.
+        # The array ``pair`` is the argument of MOVED. It contains the state and the coordinates at theta.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),
@@ -83,7 +84,7 @@ class DenseOutput:
             Call(MOVED, (pair, self.inner)),
         )
         parameters = (state, self.powers, self.theta, self.inner)
-        about = "The state inside a step, at the fraction theta of the step."
+        about = "Compute the state at the fraction theta of a step."
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:

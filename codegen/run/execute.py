@@ -53,7 +53,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement. It returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment. Because of its spaces, the key differs from every identifier."""
+"""The key of the result in an environment. The key contains spaces, so it differs from every identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -72,13 +72,13 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 
 
 class Machine:
-    """Executes the functions of a unit (one emitted program) with numbers of a number domain.
+    """Executes the functions of a unit (one emitted program) with the numbers of ``domain``.
 
     - Arrays are lists, and arrays of rows are lists of lists.
     - If a function returns a value through an argument, this argument is a list of one entry.
     - The method :meth:`record` creates the records.
     - The value of an absent argument is None.
-    - The argument for the run-time inputs is a function of time. It returns the values of all inputs.
+    - Run-time inputs are passed as a function of time. This function returns the values of all inputs.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -88,7 +88,7 @@ class Machine:
             # The numbers in the tables are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # The identifiers are keys of a dictionary, so no word is reserved.
+        # Here the identifiers are only keys of a dictionary, so Python's keywords are allowed.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -113,7 +113,7 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return the zero of ``kind``. If ``shape`` is not empty, return an array of such zeros."""
+        """Return a zero number or a zero ``record``. If ``shape`` is not empty, return an array of these."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
@@ -122,7 +122,7 @@ class Machine:
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Return the result of a function. The function may change arrays and records in its arguments."""
+        """Execute the function ``name`` and return its result. Arguments may be changed in place."""
         function = self.unit.parts[name]
         # Arrays are passed by reference, as in C.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
@@ -136,7 +136,7 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error.
+        """Return the result of a function whose execution raised an arithmetic error.
 
         If the function returns a status, the result is NOT_FINITE. Otherwise the result is NaN, and all
         output arrays are filled with NaNs.
@@ -223,7 +223,7 @@ class _Compiler:
         test, body = self.term(loop.test), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # With ``at_least_once``, the test may read variables of the body, so the body is executed first.
+            # With ``at_least_once``, the body assigns variables of the test, so the body is executed first.
             again = loop.at_least_once or test(env)
             while again:
                 if body(env):
@@ -308,13 +308,13 @@ class _Compiler:
                 return False
 
             return sample
-        # The library function is looked up here, once, because a search at each call would be slow.
+        # The library function is looked up only once, because a search at each call would be slow.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # If the function has no result, ``results`` is [None], and ``stores`` is empty.
+            # If the function has no result, ``stores`` is empty, and ``results`` is ignored.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -384,7 +384,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so no conversion is needed.
+            # All numbers of a domain have the same precision, so these conversions change nothing.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -454,7 +454,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a Python function for a library function. Return None if ``function`` is no library function."""
+    """Return a Python version of the library function ``function``. Return None for all other functions."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
@@ -493,7 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
-        # If two rows of the matrix were exchanged, the same columns of the inverse must be exchanged.
+        # If rows i and j of the matrix were exchanged, columns i and j of the inverse must be exchanged.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()

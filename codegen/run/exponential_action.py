@@ -33,15 +33,15 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
-    # is v + b (p/m!). Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m.
-    # The integers m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
+    # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. Horner's rule computes p.
+    # Its coefficients m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # After Horner's rule, ``weight`` is m!.
+    # At the end of Horner's rule, ``weight`` is m!. Therefore p is divided by ``weight``.
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -82,7 +82,7 @@ def _nan(result: Term) -> For:
 
 
 def _entries(function: ExponentialAction) -> str:
-    return "; the array a contains only the entries that may be non-zero" if function.pattern else ""
+    return "; the array a does not contain the entries that are always zero" if function.pattern else ""
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
@@ -110,7 +110,7 @@ def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> lis
         inner = (Assign(value, number(0.0)), For(_COLUMN, whole(function.n), (added,)))
         return [For(_ROW, whole(function.n), (*inner, Assign(result[_ROW], value)))]
     return [
-        # If all entries of a row are zero, the sum has no terms.
+        # If a row of ``a`` is always zero, the sum has no terms.
         Assign(result[i], total(a[k] * y[j] for k, j in row) if row else number(0.0))
         for i, row in enumerate(function.rows)
     ]

@@ -1,8 +1,8 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The executor of the emitted statements (:mod:`codegen.run.execute`) uses this module. The function
-:func:`codegen.ir.domain.stumpff` has other rounding errors. With these errors, an implicit step might need
-another number of iterations than in emitted code.
+Trial steps (:mod:`codegen.run.trial`) are executed in this arithmetic. The function
+:func:`codegen.ir.domain.stumpff` has other rounding errors. Other rounding errors could change the number of
+iterations in an implicit step.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
-    In a chain of Stumpff functions, each argument depends on the result of the preceding function. ``chain``
-    is the number of functions in the longest chain (:mod:`codegen.ir.angle_depth`).
+    ``chain`` is the largest number of nested Stumpff functions in a step (:mod:`codegen.ir.angle_depth`).
+    This number determines the largest allowed argument (:func:`codegen.snippets.stumpff.limit`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -30,7 +30,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The emitted functions compare z with the same thresholds, so the results are exactly equal.
+        # The emitted functions compare z with the same thresholds, so they have the same rounding errors.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -38,8 +38,8 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
-        # Up to a switch point, c_k is computed by its Taylor polynomial. If several functions are requested,
-        # the switch point of c_0 is used. The larger switch point of c_3 is tested below.
+        # For z <= SWITCH[k], c_k is computed by its Taylor polynomial. If several functions are requested,
+        # the threshold is SWITCH[0]. The larger threshold SWITCH[3] is tested below.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
         # For z above ``self.limit``, c_k would have too few correct digits. The result is NaN, so the step
@@ -47,15 +47,15 @@ class EmittedFloats(FloatDomain):
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # For small s = sqrt(z), the formula c_2 = (1 - cos s)/s^2 loses digits. Therefore the equal
+        # Let s = sqrt(z). For small s, the formula c_2 = (1 - cos(s))/s^2 loses digits. Therefore the
         # formula c_2 = sin(s/2)^2/(2 (s/2)^2) is used.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # By a half-angle formula, c_1 = sin(s)/s is the product of cos(s/2) and sin(s/2)/(s/2).
+        # Because sin(s) = 2 sin(s/2) cos(s/2), c_1 = sin(s)/s is the product of ``ratio`` and ``cosine``.
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
-            # For z below SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
+            # For z up to SWITCH[3], the closed form c_3 = (1 - c_1)/z loses digits.
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
         return [closed[k] for k in orders]
 
@@ -67,7 +67,7 @@ class EmittedFloats(FloatDomain):
         return [closed[k] for k in orders]
 
     def call(self, function: str, *args: float) -> float:
-        """Return the value of a function, rounded as in emitted code."""
+        """Return the value of a mathematical function, with the same roundings as in emitted code."""
         (z, *_) = args
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
@@ -116,7 +116,7 @@ def _hyperbolic(k: int, z: float) -> float:
     if k == 0:
         return math.cosh(r)
     if k == 2:
-        # For small r, the formula c_2 = (cosh(r) - 1)/r^2 loses digits. Therefore the equal
+        # For small r, the formula c_2 = (cosh(r) - 1)/r^2 loses digits. Therefore the
         # formula c_2 = sinh(r/2)^2/(2 (r/2)^2) is used.
         half = 0.5 * r
         ratio = math.sinh(half) / half
@@ -136,7 +136,7 @@ def _terms(k: int, name: str) -> tuple[float, ...]:
 
 
 def _short(k: int, z: float, name: str) -> float:
-    """Return the Stumpff function c_k(z) for small z by a short polynomial."""
+    """Return the Stumpff function c_k(z) for small z. ``name`` is the polynomial: "tiny" or "small"."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
     # The additions have the same order as in the emitted code (template ``stumpff_small``), because the order
@@ -151,8 +151,8 @@ def _short(k: int, z: float, name: str) -> float:
 def _series(k: int, z: float) -> float:
     """Return the Taylor polynomial of the Stumpff function c_k at z.
 
-    The terms with odd powers and the terms with even powers from z^2 on are summed separately. The constant
-    term is added last.
+    One sum contains the odd powers of z, another sum the even powers from z^2 on. The constant term is added
+    last.
     """
     first, *rest = _terms(k, "series")
     w = z * z

@@ -1,8 +1,8 @@
 """Identifiers in a target language: legal and unique names for the symbols of a kernel.
 
-The code around a kernel uses only names that are legal in every target language. The names in a kernel may be
-illegal. Therefore each name in a kernel is replaced by a legal identifier that differs from all other names
-in the emitted function.
+A kernel is the arithmetic of a step. The code around a kernel uses only names that are legal in every target
+language. The names in a kernel may be illegal. Therefore each name in a kernel is replaced by a legal
+identifier that differs from all other names in the emitted function.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """For one function: the identifiers that replace the names of the kernel.
+    """The identifiers that replace the names of the kernel in one function.
 
     An identifier is a variable, or an entry ``array[k]`` of an array.
     """
@@ -25,13 +25,13 @@ class Identifiers:
     by_name: Mapping[str, str]
 
     def of(self, name: Term) -> str:
-        """Return the identifier that replaces ``name``. Only names of the kernel are replaced."""
-        # Names of the kernel may be illegal in the target language. If a name has no identifier, a KeyError
-        # is raised.
+        """Return the identifier of ``name``. A name that is not from the kernel is returned unchanged."""
+        # A name of the kernel may be illegal in the target language. Therefore a missing identifier raises a
+        # KeyError.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable with the value of ``name``. For an entry ``array[k]``, it is ``array``."""
+        """Return the variable that contains ``name``. If the identifier is ``array[k]``, return ``array``."""
         return self.of(name).partition("[")[0]
 
 
@@ -55,16 +55,16 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # The identifiers of the scalar arguments are chosen first, so the other names of the kernel do not
-    # influence them.
+    # The identifiers of the scalar arguments are chosen first, so no other name of the kernel takes
+    # them.
     own.add_all(scalars)
     entries: dict[str, str] = {}
-    # Statements are visited in the order of the code, so that equal programs get equal identifiers.
+    # Statements are visited in the order of the code. Therefore equal functions get equal identifiers.
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # An outlined function stores its results in this array. In the kernel, result k has the name
+            # This array receives the results of an outlined function. In the kernel, result k has the name
             # ``name.k``.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
