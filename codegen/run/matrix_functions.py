@@ -67,7 +67,7 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions that compute ``functions``, for example a matrix exponential.
+    """Return the emitted functions for ``functions``, for example for a matrix exponential.
 
     Each emitted function comes after the functions that it calls.
     """
@@ -87,7 +87,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of equal size use the same norm function. The dictionary keeps one copy.
+        # Exponentials of matrices of equal size use the same norm function. It is listed once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -178,8 +178,8 @@ class _Exponential:
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # For small matrices, the sum is emitted without a loop. The order of the terms is the same as in the
-        # loop, so the rounding errors are the same.
+        # For small matrices, the entry is computed without a loop. The order of the terms is the same as in
+        # the loop, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
         # The sums for different matrices of the jet need different variables.
@@ -201,14 +201,13 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # ``bits`` is the number of bits of the significand. It also limits the number of squarings,
-                # because further squarings would leave no correct digit.
+                # ``bits`` is the number of bits of the significand. More than ``bits`` squarings would leave
+                # no correct digit.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
             Assign(norm, norm * scale),
-            # The matrix and its derivatives are multiplied by ``scale``. The repeated squaring of the jet
-            # undoes this scaling.
+            # The jet ``a`` is multiplied by ``scale``. The repeated squaring undoes this scaling.
             For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
             *self._polynomial(powers, work, result, norm),
             If(
@@ -226,12 +225,12 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            single = " + e E, where e is a symbol with e^2 = 0 (the input contains a, then E)"
-            several = f" + E, where E is linear in each of {self.level} symbols with square zero (the input"
+            single = ", and its derivative in the direction E (the input contains a, then E)"
+            several = f" + E for a polynomial E in {self.level} symbols whose squares are zero (the input"
             what += single if self.level == 1 else f"{several} contains a, then the coefficients of E)"
         return (
-            f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the "
-            f"bound of the relative error exceeds 2^-{LEAST_DIGITS}."
+            f"result = {what}, by a Taylor polynomial and repeated squaring. If the relative "
+            f"error may exceed 2^-{LEAST_DIGITS}, all entries of the result are NaN."
         )
 
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
@@ -241,11 +240,12 @@ class _Exponential:
         lowest degree whose truncation error is smaller than the rounding errors.
         """
         # This is the method of Paterson and Stockmeyer for a polynomial in b = ``powers[0]``. Its degree is
-        # 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products. The terms are
-        # divided into g groups of four. Horner's rule in b^4 combines the groups with g - 1 more products.
+        # 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products. The terms
+        # below degree 4 g form g groups of four. Horner's rule in b^4 combines these groups with g - 1 more
+        # products.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # The names ``first``, ``second`` and ``third`` denote the largest norms for the degrees 4, 8 and 12.
+        # At norms up to ``first``, ``second`` or ``third``, the degree 4, 8 or 12 is accurate enough.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
@@ -268,8 +268,8 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop begins with the group of the highest degree. In all later groups, the result of
-                # the previous group is multiplied by b^4.
+                # The loop begins with the group of the highest degree. Before a later group is added, the
+                # result is multiplied by b^4.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -285,15 +285,14 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that compute ``growth``. It bounds the spectral norm of exp(scale a)."""
+        """Return the statements that compute ``growth``, a bound of the spectral norm of exp(scale a)."""
         # Let mu be the logarithmic norm of ``a``, the largest eigenvalue of its symmetric part. The spectral
         # norm of exp(``a``) is at most exp(mu). Gershgorin's theorem gives the upper bound ``largest`` of mu.
-        # For each row of the symmetric part, the diagonal entry and the absolute values of all other entries
-        # are added. The largest sum is ``largest``.
+        # For each row of the symmetric part, the signed diagonal entry and the absolute values of all other
+        # entries are added. The largest sum is ``largest``.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
-            # The sum contains the diagonal entry itself, and not its absolute value.
             Assign(sums, a[(self.n + 1) * _ROW]),
             For(_COLUMN, whole(self.n), (If(_COLUMN.differs(_ROW), (Assign(sums, sums + off),)),)),
             Assign(largest, select(sums > largest, sums, largest)),
@@ -311,8 +310,8 @@ class _Exponential:
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
         """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        The statements also compute a bound of the error of the matrix in ``result``. If the relative error
-        may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
+        ``growth`` bounds the norm of the matrix in ``result``. The statements also bound the error of this
+        matrix. If its relative error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
@@ -321,8 +320,9 @@ class _Exponential:
             # The spectral norm of the matrix is at most its Frobenius norm, and at most ``growth``. The
             # smaller of these two bounds is used.
             Assign(bound, select(bound < growth, bound, growth)),
-            # Let r and e be bounds of the norms of an n x n matrix and of its error. Let u be the unit
-            # roundoff. Then 2 r e + n^2 u r^2 is an approximate bound for the error of the computed square.
+            # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
+            # With the unit roundoff u, the error of the computed square is at most about
+            # 2 r e + n^2 u r^2.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
             # If the norm of a matrix is at most ``growth``, the norm of its square is at most ``growth``^2.
             Assign(growth, growth * growth),
@@ -331,7 +331,7 @@ class _Exponential:
             Assign(result, work),
         )
         return [
-            # The initial value bounds the error of the Taylor polynomial.
+            # Before the first squaring, ``error`` bounds the error of the Taylor polynomial.
             Assign(error, number((n + 8) * unit * n)),
             For(_TERM, squarings, body),
             self.norm(result, bound),
@@ -364,14 +364,14 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
-    # Row k is the pivot row. Entry j of this row has the index ``row``, and the pivot has the index ``at``.
+    # Row k is the pivot row. The index of its entry j is ``row``, and the index of the pivot is ``at``.
     row, at = n * k + j, n * k + k
     # Of the entries of column k on and below the diagonal, the pivot has the largest absolute value. This
     # choice keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. Step k of the elimination makes all entries of column k zero except
-    # the pivot. The zeros are not stored. Instead, column k stores entries of the inverse.
+    # The inverse overwrites the matrix. Step k of the elimination turns column k into a column of the unit
+    # matrix. This column is not stored. Its place stores a column of the inverse that later steps complete.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -380,12 +380,12 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # If the matrix is singular, a pivot is zero, and its reciprocal below is infinite.
+        # If a pivot is zero, its reciprocal is infinite. The result then contains infinite or NaN entries.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
-        # The pivot is replaced by its reciprocal, an entry of the inverse.
+        # The reciprocal of the pivot is the diagonal entry of the stored column.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )

@@ -1,11 +1,10 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The state of the caller contains the momentum in the space frame. A run makes its steps in the body frame, so
-the momentum is converted at the beginning of the run. At the end of the run, the increase of the space
-momentum is computed and added to the initial momentum.
+The caller's state contains the space momentum, but the steps of a run use the body momentum. A run therefore
+begins with a conversion to the body frame, and ends with a conversion to the space frame.
 
-Rounding makes the group element q slightly non-orthogonal, so each conversion has an error. This error
-affects only the increase, because the initial momentum in the sum is not converted.
+Rounding makes the group element q slightly non-orthogonal, so a conversion has an error. To reduce this
+error, the run adds only the increase of the space momentum to the caller's momentum.
 """
 
 from __future__ import annotations
@@ -23,24 +22,23 @@ MOVING = "moving"
 
 
 def momentum_before(plan: Plan) -> Term:
-    """Return the array that contains the space momentum at the beginning of a run."""
+    """Return the array for the momentum at the beginning of a run."""
     assert plan.kernel.carried is not None
     # The momentum occupies the last entries of the state.
     return real("before", plan.size - plan.kernel.carried.first)
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the emitted functions for a run in the body frame.
+    """Return the emitted functions for a run whose steps use the body momentum.
 
     Two functions convert the momentum between the frames. The third function begins a run, and the fourth
-    ends a run. If the steps of a run are in the space frame, the tuple is empty.
+    ends a run. If ``plan`` needs no conversion, the tuple is empty.
     """
     carried = plan.kernel.carried
     if carried is None:
         return ()
     n = plan.size - carried.first
-    # Only the momentum is converted, because the group element is the same in the body frame and in the space
-    # frame.
+    # The conversions compute only the momentum, because the group element is the same in both frames.
     momentum = real("momentum", n)
     to_body = filling(
         # The conversion has its own kernel ``carried.inward``, and each kernel needs a plan.
@@ -63,12 +61,12 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The group element q is the same in both frames, so it is copied.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The initial body momentum is converted back to the space frame. ``_leave`` subtracts the result from
-        # the converted final momentum. In this difference, the errors of the two conversions nearly cancel.
+        # The initial body momentum is converted back to the space frame. ``_leave`` also converts the final
+        # body momentum, and subtracts ``before``. The errors of both conversions nearly cancel.
         Call("to_space", (moving, before)),
     )
     about = (
-        "Begin: moving = the state with its momentum in the body frame, and before = this momentum, "
+        "Begin: moving = the state with the body momentum. before = this body momentum, "
         "converted back to the space frame."
     )
     return Function(ENTER, about, (state, moving, before), body)
@@ -92,7 +90,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Return(code(OK)),
     )
     about = (
-        "End: update the state. Its new momentum is its momentum at the beginning of the run, plus the "
-        "increase of the space momentum during the run."
+        "End: update the state. The increase of the space momentum during the run is added to the "
+        "old space momentum."
     )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

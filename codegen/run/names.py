@@ -1,4 +1,4 @@
-"""Choose a legal and unique identifier of the target language for each name in a program."""
+"""Choose a legal and unique identifier of the target language for each given name."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 
 
 class Names:
-    """A mapping from the names of a program to identifiers of the target language.
+    """A mapping from names such as ``k.1`` to legal and unique identifiers of the target language.
 
     >>> names = Names({"double", "state"}); names.add_all(["m0", "double", "k.1"])
     >>> names.identifiers
@@ -28,7 +28,7 @@ class Names:
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
-        """Choose an identifier for each name without an identifier."""
+        """Choose an identifier for each of ``names`` that has none."""
         for name in names:
             if name not in self.identifiers:
                 self.identifiers[name] = self.fresh(name)

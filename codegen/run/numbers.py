@@ -16,7 +16,8 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # ``called`` contains the functions that private functions call. They are treated as private.
+    # A public function may be called by a private function. It then runs during another call, so it is
+    # counted with the private functions.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
@@ -30,11 +31,12 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     for statement in statements(function.body):
         if isinstance(statement, Call):
             # Without optimisation, a compiler may give each call its own stack space for arguments. Therefore
-            # ``passed`` is the sum over all calls.
+            # the arguments of all calls are added.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays with the same name in different blocks may have different addresses, so each is counted.
+            # Two arrays with the same name may have different addresses, for example in two loops. Therefore
+            # each array is counted.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
         # A scalar that is assigned several times has one place on the stack, so it counts once.

@@ -6,7 +6,7 @@ output times are computed by the extension instead (:mod:`codegen.run.dense_outp
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
 sign of an event function between two consecutive times. If a function changes its sign twice between them, no
-event is found. A value that is exactly zero at the beginning of a run is no event.
+event is found. If an event function is exactly zero at the beginning of a run, this zero is no event.
 
 The time of an event is enclosed in an interval that is a few rounding errors long. The Illinois variant of
 the secant method is used, together with bisection. The event state is the state at the end of this interval,
@@ -68,8 +68,9 @@ at most 2 CLOSE u max(|t|, |t'|, |t' - t|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
-"""Values of ``stops`` for an event function. The run ends if the value of the function changes from negative
-to positive (RISING), from positive to negative (FALLING), or in either direction (RISING + FALLING)."""
+"""Values of the array ``stops``, which has one entry for each event function. The run ends if the function
+changes from negative to positive (RISING), from positive to negative (FALLING), or in either direction
+(RISING + FALLING)."""
 
 
 class Observation:
@@ -107,18 +108,18 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test that no failure has occurred in the observation of a step."""
+        """The condition that the observation of a step has not failed."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
     @property
     def outputs(self) -> tuple[Term, ...]:
-        """The arguments for output times."""
+        """The arguments of the emitted functions for output times."""
         return self.times, self.amount, self.rows, self.written
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments for events, or an empty tuple if there are no event functions."""
+        """The arguments of the emitted functions for events, or () without event functions."""
         if not self.events:
             return ()
         return (
@@ -138,7 +139,7 @@ class Observation:
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
         same = negated(either(self.times[place] < now, self.times[place] > now))
-        # The status of an earlier failure is kept, even if the output times are wrong.
+        # A failure before this test keeps its status, even if the output times are wrong.
         checked = both(STATUS.equals(code(OK)), negated(ordered))
         # Several output times may equal the initial time, so this is a loop.
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
@@ -167,7 +168,7 @@ class Observation:
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions. Each function comes after the functions that it calls."""
+        """Return the emitted functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
         # INSIDE is needed for the search for events, and for output times without a continuous extension.
@@ -183,7 +184,7 @@ class Observation:
         run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
         body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
-        about = "Compute a state inside a step: make a shorter step of size h from the old state."
+        about = "Compute a state inside a step: make a step of size h from the beginning of the step."
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
@@ -214,7 +215,7 @@ class Observation:
             ),
             Return(ordered),
         )
-        about = "True if the output times are sorted and lie between the beginning and the end of the run."
+        about = "True if all output times lie inside the run and are sorted in its direction."
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
@@ -237,7 +238,7 @@ class Observation:
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
         # An event function may be zero at the beginning of a run or at an event. Its sign is then stored as
-        # zero, and the next nonzero value is no event.
+        # zero, and its next nonzero value does not count as an event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -274,9 +275,9 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # ``width`` is a bound for the rounding errors of times, divided by the length of the step.
+            # ``width`` bounds the rounding errors of times, as a fraction of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # It must not be smaller than a bound for the rounding errors of ``low`` and ``high``.
+            # ``width`` must also bound the rounding errors of ``low`` and ``high``.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -303,8 +304,9 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
-        # If a function changes its sign in the interval, the secant of the function has a zero there. The
-        # earliest of these zeros is chosen. In every third iteration, the midpoint is chosen instead.
+        # If a function changes its sign in the interval, the secant through its weighted values at both ends
+        # has a zero there. The earliest of these zeros is chosen. In every third iteration, the midpoint is
+        # chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
@@ -314,11 +316,10 @@ class Observation:
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
-            # Only functions that change their sign in the interval are used.
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # The guess is at least ``width`` away from both ends. If a zero is very close to one end, the
-            # interval between the guess and this end is short enough to end the search.
+            # ``middle`` keeps at least the distance ``width`` from both ends. An event nearer to one end lies
+            # between ``middle`` and this end. This interval is short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -326,10 +327,10 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two groups of statements. The first group moves the upper end of the interval to ``middle``.
-        The second group moves the lower end to ``middle``."""
-        # If one end moves twice in a row, the Illinois method halves the weight of the values at the other
-        # end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
+        """Return two groups of statements. The first group moves the upper end of the searched interval
+        to ``middle``. The second group moves the lower end to ``middle``."""
+        # If the same end moves twice in a row, the Illinois method halves the weight of the values at the
+        # other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -377,7 +378,7 @@ class Observation:
                     Assign(change, truth(False)),
                     Assign(high, self.target),
                     If(good, (Call(CROSSED, (self.signs, self.measured), (change,)),)),
-                    # LOCATE moves ``high`` from ``target`` to a time just after the first event.
+                    # The function LOCATE moves ``high`` back to a point just after the first event.
                     If(change, (Call(LOCATE, located, (STATUS,)),)),
                     If(both(good, change), self.recorded()),
                     If(either(good, STATUS.equals(code(EVENT))), self.passed()),
@@ -393,8 +394,8 @@ class Observation:
     def recorded(self) -> tuple[Statement, ...]:
         """Return the statements that store an event for each function that has changed its sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
-        # In ``stops[i]``, the bit RISING = 1 ends the run at a rising zero, and the bit FALLING = 2 at a
-        # falling zero.
+        # If ``stops[i]`` contains the bit RISING = 1, a rising zero ends the run. If it contains the bit
+        # FALLING = 2, a falling zero ends the run.
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
@@ -408,14 +409,14 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # The run ends here if the buffer has no room for one more event of each function.
+            # If the buffer has no room for another event of each function, the run ends here.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue the search at the time ``high``. It is the end of one of the
-        PARTS of the step, or the time of an event."""
+        """Return the statements that continue the search at the fraction ``high`` of the step. There the
+        search has found an event, or it has reached the end of a part."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
@@ -427,10 +428,10 @@ class Observation:
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare a continuous extension. Without an extension there are none."""
+        """Return the statements that prepare a continuous extension, or () without an extension."""
         if self.dense is None:
             return ()
-        # Without these zeros, a compiler may warn that the array has no values.
+        # The array is set to zero, because a compiler may warn that its entries have no values.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
@@ -475,7 +476,8 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The loop runs only while the status is OK. The result of the search is restored after the loop.
+            # The loop needs the status OK, but the search for events may have set the status EVENT. Therefore
+            # the status of the search is restored after the loop.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),
