@@ -1,11 +1,13 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
-One iteration consists of one or more sweeps over all sites. Iterations are repeated until the unknowns
-converge. In fixed-point iteration, the image of an unknown is the right-hand side of its equation. The last
-sweep of each iteration overwrites the unknowns with their images. For each site, this sweep also stores the
-largest change and the largest absolute value of an unknown. The stopping rule (:mod:`codegen.run.stopping`)
-uses the maxima over all sites. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals
-instead of images, and then corrects the unknowns.
+The equations are u = g(u), with unknowns u at each site. One iteration consists of one or more sweeps over
+all sites. Iterations are repeated until the unknowns converge.
+
+In fixed-point iteration, the last sweep of each iteration replaces u by g(u). This sweep also stores two
+numbers for each site: the largest change of an unknown, and the largest absolute value of an unknown. The
+stopping rule (:mod:`codegen.run.stopping`) uses the maxima of these numbers over all sites.
+
+Newton's method for chains (:mod:`codegen.run.site_newton`) stores the residuals g(u) - u. Then it corrects u.
 """
 
 from __future__ import annotations
@@ -42,8 +44,8 @@ from codegen.run.terms import (
 MEASURE, REACH = "measured", "largest_state"
 """The names of two functions that compute maxima over all sites.
 
-MEASURE computes the largest change and the largest absolute value of an unknown. REACH computes the largest
-absolute value in the states."""
+MEASURE computes the largest change of an unknown and the largest absolute value of an unknown. REACH computes
+the largest absolute value of the state variables."""
 
 _REACH, _PLACE = real("reach"), count("place")
 
@@ -52,30 +54,27 @@ class _Stopping(Stopping):
     """The stopping rule for the unknowns of all sites."""
 
     def converged(self) -> list[Statement]:
-        """Return the statements that set the flag ``converged``."""
-        # The stopping rule needs the largest absolute value in the states only if the changes of the unknowns
-        # no longer decrease. In all other cases it is not computed.
+        """Return the statements that test whether the unknowns have converged."""
+        # The loop over the states takes time. Its result is needed only if the changes no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require that ``_REACH`` always has a value, so it is set to zero before the test. The
-        # stopping rule never uses this zero.
+        # Compilers require that ``_REACH`` always has a value, so zero is assigned first. The stopping rule
+        # never uses the zero.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
         """Return the test for the case *lost* of the stopping rule.
 
-        In this case, h times the largest change of an unknown is below the rounding errors of the states.
+        In this case, the step size times the largest change of an unknown is below the rounding errors of
+        the states.
         """
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return a ``Loop`` object for the stopping rule of a block of equations.
-
-    The object contains the label and the unknowns of the block, but no equations.
-    """
+    """Return the data that the stopping rule needs about a block of equations."""
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # The starting value is never used. Without it, the stopping rule would assume a warm start.
+    # The starting value (zero) is never used. A loop without starting values would count as a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -84,8 +83,8 @@ def iterated(
 ) -> list[Statement]:
     """Return the statements that repeat ``iteration`` until the unknowns converge.
 
-    If the unknowns do not converge, or if the matrix is singular, the emitted function returns a status that
-    describes the failure.
+    If the unknowns do not converge, the statements return the status of this failure. If Newton's matrix is
+    singular, they return the status SINGULAR.
     """
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
@@ -97,7 +96,7 @@ def iterated(
         Assign(CHANGE, MEASURED[0]),
         Assign(SCALE, MEASURED[1]),
         *rule.converged(),
-        # The third value is a sum. It is finite only if all changes are finite.
+        # ``MEASURED[2]`` is finite only if all changes are finite.
         rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]
@@ -106,7 +105,7 @@ def iterated(
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
         *prepared,
-        # All blocks use the array MEASURED, so only the first block declares it.
+        # All blocks of equations use the array MEASURED, so only the first block declares the array.
         *([Array(MEASURED)] if block_number == 1 else []),
         *rule.before(),
         Assign(SWEEPS, whole(0)),
@@ -136,24 +135,24 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 def _measure(step: SiteStep) -> Function:
     """Return the function that computes the three values of MEASURED in fixed-point iteration."""
     work = ARRAYS[WORK]
-    # Blocks of equations are solved one after another. Therefore all blocks use the same two rows of the
-    # workspace: one for the changes and one for the absolute values of the unknowns.
+    # All blocks of equations use the same two rows of the workspace: one for the changes and one for the
+    # absolute values of the unknowns.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
     change = real("change")
-    # Several processors may execute the loop, so the two maxima and the sum are declared as reductions.
+    # If several processors execute the loop, their maxima and sums must be combined. Reductions do this.
     reductions = (("max", most), ("max", largest), ("+", all_changes))
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # The maximum may ignore a NaN. The sum is NaN if a change is not finite, and 0 otherwise. It does not
-        # depend on the order of the additions.
+        # A maximum may ignore a NaN, but a sum does not. The sum is NaN if a change is not finite. Otherwise
+        # all terms are 0, so the order of the additions has no influence.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
-    about = "Compute three numbers over all sites: the largest change, the largest unknown, and a sum. The "
-    about += "sum is 0 if all changes are finite, and NaN otherwise."
+    about = "Compute the largest change and the largest absolute value of an unknown at all sites. The third "
+    about += "number is 0 if all changes are finite, and NaN otherwise."
     return Function(
         MEASURE,
         about,
@@ -169,14 +168,14 @@ def _measure(step: SiteStep) -> Function:
 
 
 def _reach(step: SiteStep) -> Function:
-    """Return the function that computes the largest absolute value in the states of all sites."""
+    """Return the function that computes the largest absolute value of the state variables."""
     state, most = ARRAYS[STATE], real("most")
-    # The rows of a state follow one another without gaps, so one loop visits all entries.
+    # There are no gaps between the rows of a state, so one loop reads all entries.
     entry = Assign(most, greatest([most, size(state[_PLACE])]))
     loop = distributed(For(_PLACE, step.size * SITES, (entry,)), (("max", most),))
     return Function(
         REACH,
-        "The largest absolute value in the states of all sites.",
+        "The largest absolute value of the state variables of all sites.",
         (SITES, state),
         (Assign(most, number(0.0)), loop, Return(most)),
         Kind.REAL,

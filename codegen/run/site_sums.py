@@ -1,8 +1,7 @@
 """Sums over all sites of a lattice.
 
-The sites are divided into chunks of consecutive sites. The terms of each chunk are added, and then the sums
-of all chunks are added. The order of the additions is fixed, so the result does not depend on the number of
-threads.
+The sites are divided into chunks of consecutive sites. Each chunk has its own sum, and these sums are added
+in a fixed order. Therefore the result does not depend on the number of threads.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k")
 
 
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
-    """Return the calls that compute the sums of a sweep. Each call adds the terms of all sites."""
+    """Return one function call for each sum over all sites that the sweep defines."""
     return [
         Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]
@@ -30,21 +29,21 @@ def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
 def sum_of_terms() -> Function:
     """Return the function that computes the sum of all numbers in a row of the workspace.
 
-    The sum of each chunk of sites overwrites the first number of the chunk.
+    The function overwrites some numbers of the row with partial sums.
     """
     work = ARRAYS[WORK]
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum of a chunk overwrites the first number of this chunk. Other chunks do not read this number.
+        # The sum of a chunk overwrites the first number of this chunk, which is no longer needed.
         Assign(work[_START + FIRST], _PART),
     )
     # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because
-    # the last chunk may be incomplete.
+    # the last chunk may have fewer sites.
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,
-        "The sum of the numbers in one row of the workspace. Sums of chunks overwrite some of the numbers.",
+        "The sum of the numbers in one row of the workspace. The function overwrites some of the numbers.",
         (SITES, work, _START),
         (chunks(SITES, added), Assign(_SUM, number(0.0)), whole, Return(_SUM)),
         Kind.REAL,

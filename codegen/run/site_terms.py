@@ -18,8 +18,8 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the index of a site in its row. ROW is the index of the first site of this row among all sites of
-the lattice."""
+COLUMN is the position of a site in its row. ROW is the index of the first site of this row. Indices count all
+sites of the lattice."""
 
 STRIDE = count("stride")
 """The distance between the beginnings of two consecutive rows of the workspace, in array entries."""
@@ -28,18 +28,18 @@ SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), cou
 BAD, WHOLE = count("bad"), flag("whole")
 """BAD is the number of sites whose new state is not finite, and WHOLE is a flag.
 
-If WHOLE is true, sines, cosines and Stumpff functions are computed by variants that accept all arguments."""
+If WHOLE is true, all sites are computed with sines, cosines and Stumpff functions that accept all arguments.
+Otherwise most sites are computed with fast variants for arguments near zero."""
 
-# The lengths of these arrays depend on the number of sites, which is known only at run time. They are
-# declared with the size 0.
+# The size 0 means that the length of an array is known only at run time.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over consecutive sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites, one processor executes all loops. MANY_SITES was chosen from measurements
-with ``benchmarks/lattice.py --threads 2``. In these measurements all loops were executed in parallel. On 1024
-spins, a step of the method ``cf4`` takes the same time with one thread and with two threads. On 4096 spins,
-two threads need 0.55 times as long as one thread."""
+For fewer than MANY_SITES sites, one processor executes all loops, because threads save no time on small
+lattices. On 1024 spins, a step of the method ``cf4`` takes the same time with one and with two threads. On
+4096 spins, two threads need 0.55 times as long as one thread. These times were measured with
+``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -50,13 +50,13 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
     """Return a parallel loop over ``number`` consecutive sites, which are divided into chunks.
 
-    ``body`` computes one chunk: the SIZE sites that begin with the site FIRST.
+    ``body`` computes one chunk. The chunk has SIZE sites, and its first site has the index FIRST.
     """
     rest = number - FIRST
     # The last chunk may have fewer sites than the other chunks.
     limits = (Assign(FIRST, _PASS * CHUNK), Assign(SIZE, select(rest < CHUNK, rest, whole(CHUNK))))
     many = number >= MANY_SITES
-    # The number of chunks is rounded up, because the last chunk may be incomplete.
+    # The number of chunks is rounded up, because the last chunk may have fewer sites.
     count_of_chunks = (number + (CHUNK - 1)) // CHUNK
     return For(_PASS, count_of_chunks, (*limits, *body), parallel=True, reductions=reductions, when=many)
 
@@ -67,24 +67,24 @@ def distributed(loop: For, reductions: tuple[tuple[str, Term], ...] = ()) -> For
 
 
 def shape_of(step: SiteStep) -> Term:
-    """Return the argument for the numbers of sites in all dimensions."""
+    """Return the argument ``shape``. It contains the number of sites in each dimension."""
     return count("shape", step.dimension)
 
 
 MEASURED = real("measures", 3)
-"""The array for three values over all sites.
+"""The array for three numbers of the stopping rule.
 
-They are the largest change of an unknown, the largest absolute value of an unknown, and a sum. The sum is
-finite only if all changes are finite."""
+The first two numbers are maxima over all sites: the largest change of an unknown, and the largest absolute
+value of an unknown. The third number is finite only if all changes are finite."""
 
 
 def padded(sites: Count) -> Count:
     """Return the distance between two rows of the workspace: an odd multiple of 8, at least ``sites``.
 
-    If the distance were a large power of two, such as 512 doubles, the entries of all rows at one site would
-    compete for the same few lines of a cache. A step of the method ``cf4`` would then take 1.7 times as long
-    on 1024 x 1024 spins, and 2.3 times as long on a rod of 512 sections (``benchmarks/lattice.py --side
-    1024``, ``benchmarks/rod.py``).
+    The distance is not a large power of two such as 512. With such a distance, the numbers of one site would
+    compete for the same few lines of a cache. A step of the method ``cf4`` would take 1.7 times as long on
+    1024 x 1024 spins (``benchmarks/lattice.py --side 1024``). On a rod of 512 sections, a step would take 2.3
+    times as long (``benchmarks/rod.py``).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
@@ -94,7 +94,7 @@ def padded(sites: Count) -> Count:
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
-    """Return the entry for the site with the index ``place`` in a row of an array."""
+    """Return the array entry that ``row`` contains for the site with the index ``place``."""
     array = ARRAYS[row.array]
     # Only the workspace has padded rows. The rows of a state have exactly ``sites`` entries.
     if row.array == WORK:
@@ -105,8 +105,7 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    The first ``step.size`` rows of the workspace contain a state. They are not numbered. The next row has the
-    number 0.
+    The first ``step.size`` rows of the workspace contain a state. Row 0 comes after these rows.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
@@ -125,15 +124,19 @@ def with_stride(function: Function) -> Function:
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return a test and an index for the neighbour at ``index + offset`` in a dimension with ``size`` sites.
 
-    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. In this range, the returned
-    index is ``index + offset``. Outside the range, an open lattice has no neighbour, and ``index`` is
-    returned. In a periodic lattice, ``size`` is added or subtracted once. Once is enough, because ``size`` is
-    larger than every offset. If the offset is zero, the test is None.
+    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. If the test is true, the
+    returned index is ``index + offset``. If the test is false, the returned index depends on the lattice:
+
+    - In an open lattice, the neighbour does not exist, and the returned index is ``index``.
+    - In a periodic lattice, the returned index is ``index + offset`` minus or plus ``size``. The emitted
+      functions reject a ``size`` for which this index is out of range.
+
+    If the offset is zero, the test is None.
     """
     if not offset:
         return None, index
     far = abs(offset)
-    # The test does not use ``size - far``, which may be negative, because the variables are unsigned.
+    # Unsigned variables cannot be negative. Therefore the test avoids the difference ``size - far``.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -151,13 +154,12 @@ def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[State
     known = set(shared)
     arranged = arrange(kernel)
     for statement in arranged.statements:
-        # The kernel of a site contains no loop, because repeated sweeps over all sites solve the equations.
+        # The kernel of a sweep contains no loops. Implicit equations are solved by repeated sweeps.
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in known for term in reads(single)):
                 # The statement has the same result at all sites, so it is executed once before the loop.
                 before.append(single)
-                # These results are now known to be the same at all sites.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

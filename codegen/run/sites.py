@@ -1,18 +1,17 @@
 """The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
-The argument ``shape`` contains the number of sites in each dimension, so the emitted text does not depend on
-these numbers. Row k of an array contains component k of all sites. Within a row of an array, the last index
-of a site changes fastest.
+The number of sites in each dimension is an argument of the emitted functions. Row k of an array contains
+component k of all sites. Within a row of an array, the last index of a site changes fastest.
 
-A sweep evaluates one kernel at all sites. Sweep number K has three functions. ``sweep_K`` computes
+A sweep computes the same formulas at all sites. Sweep number K has three functions. ``sweep_K`` computes
 consecutive sites whose neighbours all exist. The loop in ``sweep_K`` has no branches, so compilers can use
 vector instructions. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` calls both
 functions and computes all sites.
 
-In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
-arguments they return NaN. ``site_K`` accepts all arguments. If the new state is not finite at some site, the
-step is repeated with ``site_K`` for all sites. A finite result of ``sweep_K`` is exactly equal to the result
-of ``site_K``. The sweeps of an implicit block are repeated until the unknowns of all sites converge
+``sweep_K`` uses fast sines, cosines and Stumpff functions. They return NaN for arguments far from zero.
+``site_K`` accepts all arguments. If the new state is not finite at some site, the step is repeated with
+``site_K`` for all sites. A finite result of ``sweep_K`` is equal to the result of ``site_K``, bit for bit.
+Sweeps for implicit equations are repeated until the unknowns of all sites converge
 (:mod:`codegen.run.site_solver`).
 """
 
@@ -100,7 +99,7 @@ RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method that does not compose flows. Each function precedes its callers."""
+    """Return the functions of a method that is not a composition of flows. Callees come before callers."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     listed += [*([sum_of_terms()] if step.totals else []), *solvers(plan, step)]
@@ -111,7 +110,7 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
     """Return all functions of a step: the functions ``listed``, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
-    # The user of the emitted code allocates the workspace. The function ``workspace`` returns the length.
+    # The user of the emitted code allocates the workspace. The function ``workspace`` returns its length.
     size = Return(step.workspace * STRIDE)
     workspace = Function(
         "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
@@ -124,8 +123,8 @@ def _product(shape: Term, dimension: int) -> Term:
 
 
 def checked(values: Sequence[Term]) -> list[Statement]:
-    """Return the statements that count a site if one of its new values is not finite."""
-    # ``x - x`` is 0 for a finite x, and NaN otherwise. The sum is therefore NaN if a value is not finite.
+    """Return the statements that add 1 to BAD if one of the ``values`` is not finite."""
+    # ``x - x`` is 0 for a finite x, and NaN otherwise. If a value is not finite, the sum ``check`` is NaN.
     check = real("check")
     bad = select(check.equals(number(0.0)), whole(0), whole(1))
     return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
@@ -133,8 +132,8 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 @dataclass(frozen=True)
 class Loop:
-    """Builds the functions of one sweep. If ``tested`` is False, the functions do not test the new values for
-    infinities and NaNs."""
+    """The generator of the functions of one sweep. If ``tested`` is False, the functions do not test whether
+    new values are finite."""
 
     plan: Plan
     step: SiteStep
@@ -144,12 +143,12 @@ class Loop:
 
     @property
     def last(self) -> bool:
-        """True if the sweep stores the new state and tests whether it is finite."""
+        """True if the sweep stores the new state and tests whether the new state is finite."""
         return self.tested and any(row.array == RESULT for row in self.own.stores)
 
     @property
     def near(self) -> bool:
-        """True if all functions that the sweep calls have variants without branches."""
+        """True if all mathematical functions in the sweep have variants without branches."""
         before, inside, _ = split(self.own.kernel, set())
         called = called_by([*before, *inside])
         return all(name in VECTORISED or name.startswith("stumpff_") for name in called)
@@ -178,7 +177,7 @@ class Loop:
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
-        """Return the entry for the site with the index ``place`` in a row of an array."""
+        """Return the array entry that ``row`` contains for the site with the index ``place``."""
         return entry_of(self.step, row, place)
 
     def loaded(
@@ -194,15 +193,15 @@ class Loop:
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the results at a site and test whether a new state is finite."""
-        # The first outputs are the images (new values) of the unknowns. With Newton's method, the residuals
-        # are stored instead of the images.
+        """Return the statements that store and test the results ``ends`` of one site."""
+        # The first results are the new values of the unknowns. Newton's method stores residuals instead of
+        # these values.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
         for row, end in zip(self.own.stores, [*replaced, *ends[len(images) :]], strict=True):
             if self.last and row.array == RESULT:
-                # The value is both stored and tested, so it is assigned to a variable.
+                # Two statements use the value, so it is assigned to a variable.
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
@@ -213,29 +212,25 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return the statements that compute the new values of the unknowns, and the names of these
-        values.
-
-        All new values are computed before an unknown changes.
-        """
+        """Return the statements that compute the new values of the unknowns, and these new values."""
         images = [own(f"next {u}") for u in self.own.unknowns]
-        # Only the first terms of ``ends`` are images.
+        # Only the first results in ``ends`` are new values of unknowns.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
-        """Return the residuals of Newton's method: the images minus the unknowns."""
+        """Return the residuals g(u) - u of Newton's method for the new values ``images`` = g(u)."""
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the largest change and the largest absolute value of the
-        unknowns."""
+        """Return the statements that store two numbers of a site: the largest change of an unknown, and the
+        largest absolute value of an unknown."""
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # The maximum may ignore a NaN. If a change is not finite, the sum s of the changes is not finite, and
-        # ``s - s`` is NaN. Therefore ``s - s`` is added to the maximum.
+        # A maximum may ignore a NaN. If a change is not finite, the sum s of the changes is not finite, and
+        # ``s - s`` is NaN. Therefore ``s - s`` is added to the largest change.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -256,7 +251,7 @@ class Loop:
         return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
 
     def name(self, of: str) -> str:
-        """Return the full name of a function: the argument ``of``, followed by the number of the sweep."""
+        """Return the name of a function, such as ``site_2`` for ``of`` = "site" and sweep number 2."""
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
@@ -308,11 +303,11 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # The value for a missing neighbour may depend on the values of the site, so these are loaded first.
+        # The values of a missing neighbour may depend on values of the site, so the site is loaded first.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # For a missing neighbour, the array is read at the index of an existing site.
+            # This load is executed even if the neighbour is missing. Then it reads an existing site.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -321,8 +316,8 @@ class Loop:
         """Return the arguments that describe one row of the lattice.
 
         The first argument is the index of the first site of the row. The next arguments are the indices of
-        the first sites in the rows of the neighbours. In an open lattice with several rows, flags state which
-        rows of neighbours exist.
+        the first sites in the rows of the neighbours. In an open lattice with several rows, the last
+        arguments are flags. They are true for rows that exist.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -339,7 +334,7 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"All sites of sweep {self.index}. If 'whole' is true, each site has its own function call."
+        about = f"All sites of sweep {self.index}. If 'whole' is true, each site has a separate call."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
@@ -365,12 +360,12 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If ``sweep_K`` computes no site of the row, the first loop computes the whole row.
+        # The first loop calls ``site_K``. If ``sweep_K`` computes no sites, this loop computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If WHOLE is true, this loop computes all sites of a chain, so several processors can execute it.
+        # If WHOLE is true, this loop computes all sites of a chain. Therefore it is executed in parallel.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
@@ -384,7 +379,7 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return the loop over ``number`` sites that calls the function of :meth:`site` for each site."""
+        """Return a loop over ``number`` sites that calls ``site_K`` for each site."""
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 
@@ -399,10 +394,10 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index of the first site of a row. ``indices`` are the indices of the row."""
+    """Return the index of the first site of a row. ``indices`` is the position of the row in the lattice."""
     if not indices:
         return whole(0)
-    # Horner's rule gives the number of the row. For two indices i and j, it is ``i * shape[1] + j``.
+    # Horner's rule counts the rows before this row. For two indices i and j, it gives ``i * shape[1] + j``.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -432,19 +427,19 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the test whether the shape of the lattice is unsuitable for the step.
+    """Return a test that is true if the step cannot be computed on a lattice of the given shape.
 
-    A dimension may have too few sites. If a sweep acts on pairs of neighbours along a dimension of a periodic
-    lattice, the number of sites in this dimension must be even.
+    The test is true if a dimension has too few sites. In a periodic lattice, a sweep may act on pairs of
+    neighbours. Then the number of sites in the direction of the pairs must be even.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # In a periodic lattice, an index outside the range is corrected by adding or subtracting ``shape[e]``
-        # once. This is enough only if ``shape[e]`` is larger than every offset.
+        # In a periodic lattice, ``shape[e]`` is added once to an index that is too small, or subtracted once
+        # from an index that is too large. Once is enough only if ``shape[e]`` is larger than all offsets.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # The pairs in a sweep must not share a site, so the number of sites must be even.
+            # With an odd number of sites, two pairs of a sweep would have a common site.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 
@@ -452,8 +447,8 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function, which makes several steps of equal size.
 
-    If ``twice`` is True, a step whose result is not finite is repeated once. The repetition uses variants of
-    sine, cosine and Stumpff functions that accept all arguments.
+    If ``twice`` is True, a step whose result is not finite is repeated once. The repeated step uses sines,
+    cosines and Stumpff functions that accept all arguments.
     """
     later = exact_time(TIME, _DONE, STEP)
 
@@ -465,14 +460,14 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        # The first attempt uses fast variants of sines, cosines and Stumpff functions. For large arguments
-        # they return NaN, and the step is repeated.
+        # The first attempt uses fast sines, cosines and Stumpff functions. If an argument is large, they
+        # return NaN, and the step is repeated.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
-    # A step reads the state from one array and writes the new state to the other array. If the new state is
-    # finite, the two arrays exchange their roles. Therefore no state is copied.
+    # Steps read the state alternately from ``state`` and from the workspace, and write the new state to the
+    # other array. Therefore the state is not copied after each step.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),
