@@ -35,7 +35,7 @@ MEANINGS = {
     EVENT: "the run ended at an event, or the buffer for events is full",
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
-    BAD_EVENT: "the value of an event function is an infinity or a NaN",
+    BAD_EVENT: "an event function is infinite or NaN, or the buffer for events is too short",
     BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
