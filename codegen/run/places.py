@@ -23,7 +23,7 @@ class Place:
 
     @property
     def term(self) -> Term:
-        """The term for the block, as a slice of its array."""
+        """The block as a slice of its array."""
         # The stopping rule computes the largest entry of a block, so the block must be a single term.
         return real(self.array, self.whole).part(self.start, self.size)
 
@@ -41,6 +41,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # No block follows the variation, so no block needs the sum after the variation.
+        # The variation is the last block, so no block uses ``start`` after the variation.
         start += n
     return tuple(result)

@@ -28,13 +28,13 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel (the arithmetic of a step) and the floating-point format of the emitted module.
 
-    If the equations of a step do not converge, a continuation in the step size makes further attempts.
-    ``tries`` is the largest number of these attempts. If ``tries`` is None, the limit is ``Start.TRIES``.
+    If a step fails, the continuation in the step size (:mod:`codegen.run.continuation`) makes at most
+    ``tries`` attempts. If ``tries`` is None, the limit is ``Start.TRIES``.
     """
 
     kernel: Kernel
     format: Precision
-    # In trials that compare solvers, ``tries`` is 1. More attempts could hide the failure of a solver.
+    # If solvers are compared, ``tries`` is 1, because more attempts could hide the failure of a solver.
     tries: int | None = None
 
     @cached_property
@@ -55,7 +55,7 @@ class Plan:
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
-        # The search visits the whole kernel, so the result is cached.
+        # ``used_scalars`` visits the whole kernel, so the result is cached.
         return self.kernel.used_scalars()
 
     @property
@@ -71,7 +71,7 @@ class Plan:
 
     @property
     def counting(self) -> bool:
-        """True if the kernel solves equations in loops. The statistics then count the sweeps of the loops."""
+        """True if the kernel solves equations iteratively. The statistics then count the iterations."""
         return bool(self.kernel.loops)
 
     @property
@@ -128,13 +128,13 @@ class Plan:
 
     @property
     def counted(self) -> tuple[Term, ...]:
-        """A tuple with the argument for statistics. The tuple is empty if no sweeps are counted."""
+        """A tuple with the argument for statistics. The tuple is empty if ``counting`` is False."""
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
-        """Return the arguments for the time and the step size.
+        """Return the arguments ``t`` (time) and ``h`` (step size) of a step.
 
-        If the step does not depend on time, only the step size is returned.
+        If the step does not depend on time, ``t`` is omitted.
         """
         # An unused argument for the time would cause a compiler warning and needless arithmetic.
         return (t, h) if self.time else (h,)
@@ -145,7 +145,7 @@ class Plan:
 
     @property
     def held(self) -> tuple[Term, ...]:
-        """A tuple with the array of inputs, which are constant during a step. Without inputs, it is empty."""
+        """A tuple with the array of inputs (constant during a step). Without inputs, the tuple is empty."""
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
@@ -156,5 +156,5 @@ class Plan:
 
 
 def symbols_of(kernel: Kernel) -> frozenset[str]:
-    """Return every symbol that an expression of a kernel reads."""
+    """Return the symbols that the expressions of a kernel read."""
     return frozenset(n.payload for n in walk(kernel.expressions()) if n.op == "sym")

@@ -1,8 +1,8 @@
 """Choose where a target language such as C declares each scalar variable.
 
 A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
-exception. Suppose that all uses are in several inner blocks, and that each block assigns the variable before
-it reads the variable. Then each of these blocks declares the variable.
+exception: all uses are in several inner blocks, and each of them assigns the variable before it reads the
+variable. Then each of these inner blocks declares the variable.
 
 Let B be the block that declares the variable, and let S be the first statement of B that mentions the
 variable. If S assigns only this variable and does not read it, S also declares it, as in ``double x = 1.0;``.
@@ -35,12 +35,11 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The declarations of a function, in two dictionaries. The keys of both are ``id(statement)``.
+    """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
-    - The value in ``before`` is a list of the variables that are declared before the statement, each with its
-      identifier.
-    - The value in ``by`` is a dictionary of the variables that the statement itself declares. For each
-      identifier, the dictionary contains True if the variable is constant, and False otherwise.
+    - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
+    - ``by`` contains the variables that a statement itself declares, as a dictionary. Its keys are the
+      identifiers. A value is True if the variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -55,7 +54,7 @@ def declarations(function: Function, identifiers: Identifiers) -> Declarations:
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, without its parameters. The keys are identifiers.
+    """Return the scalars that a function assigns, except parameters. The keys are their identifiers.
 
     The scalars are in the order of their first assignment.
     """
@@ -74,13 +73,13 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
 
     collect(function.body)
     for parameter in function.parameters:
-        # The parameters are declared in the head of the function, even if the body assigns them.
+        # The head of the function declares the parameters, so they need no declaration in the body.
         result.pop(identifiers.of(parameter), None)
     return result
 
 
 class _Scopes:
-    """Finds the blocks in which the variables of one function are declared."""
+    """Chooses the blocks that declare the variables of one function."""
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
@@ -130,14 +129,14 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # An inner block may read a value that another inner block assigned. Both blocks then need the same
-        # variable, so ``body`` must declare the variable.
+        # One inner block may read the value that another inner block has assigned. Then both blocks need a
+        # common variable, which ``body`` must declare.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
 
     def begins(self, body: Body, name: str) -> bool:
-        """Return True if a body is certain to assign a variable before it reads the variable."""
+        """Return True if ``body`` always assigns the variable ``name`` before it reads the variable."""
         looped = False
         for statement in body:
             if name not in self.mentioned(statement):
@@ -145,7 +144,7 @@ class _Scopes:
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
-                # A call with several results assigns each of them.
+                # A call with several results assigns several variables.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
@@ -155,7 +154,7 @@ class _Scopes:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so the statements after the loop are tested, too.
+            # A For loop may have no iterations. Therefore the statements after the loop are tested, too.
             looped = True
         return looped
 
@@ -165,7 +164,7 @@ class _Scopes:
         ``places`` contains the indices of the statements that mention the variable.
         """
         first = body[places[0]]
-        # Assignments in inner blocks are counted, too. A variable with two assignments is not constant.
+        # A variable with two assignments is not constant, even if one of them is in an inner block.
         times = sum(self.assignments(body[k])[name] for k in places)
         # A statement such as ``x = x + 1`` cannot declare ``x``, because it also reads ``x``.
         direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0
@@ -178,7 +177,7 @@ class _Scopes:
     def assignments(self, statement: Statement) -> Counter[str]:
         """Return the number of assignments to each variable in a statement and its inner blocks."""
         if id(statement) not in self.counts:
-            # The name of an array is no scalar, so the declaration of an array is not counted.
+            # Only assignments to scalars are counted, so the declaration of an array is left out.
             targets = () if isinstance(statement, Array) else assigned(statement)
             count = Counter(self.identifiers.variable(t) for t in targets if t.op == "name")
             for block in blocks(statement):
@@ -195,7 +194,7 @@ class _Scopes:
         return self.known_own[id(statement)]
 
     def within(self, body: Body, name: str) -> bool:
-        """Return True if a body mentions a variable."""
+        """Return True if ``body`` mentions the variable ``name``."""
         return any(name in self.mentioned(statement) for statement in body)
 
     def mentioned(self, statement: Statement) -> frozenset[str]:

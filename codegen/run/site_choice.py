@@ -18,15 +18,15 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """
     step = kernel.sites
     assert step is not None
-    # An explicit method has no equations to solve, so it accepts every name of a solver.
+    # An explicit method has no equations to solve, so the requested solver does not matter.
     if step.blocks and asked == NEWTON:
         raise MethodError(
             f"{METHODS[asked]} is not possible for a chain or lattice",
             where=name,
             expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
-    # No solvers are compared here, so this text explains the reported number of unknowns. The number of sites
-    # is known only at run time, so the unknowns of all sites cannot be counted.
+    # In the report, this text follows the number of unknowns. The number of sites is known only at run time,
+    # so the unknowns of all sites cannot be counted.
     reason = "only the unknowns of one site are counted"
     return tuple(
         Choice(block.label, len(step.sweeps[block.last].unknowns), loop_of(block).solver, reason)

@@ -10,12 +10,12 @@ Part number K has several functions:
 - ``flow_K`` is a loop over consecutive sites, or over pairs of one set.
 - ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set.
 - ``whole_K`` exists only for parts with sines, cosines or Stumpff functions. In such a part, ``flow_K``
-  computes these functions only for arguments near zero. ``whole_K`` computes them for all arguments.
+  uses fast variants of these functions, which are valid only near zero. ``whole_K`` accepts all arguments.
 - ``pair_K`` exists in a periodic lattice if the pairs are along the last axis. The function computes the pair
   of the last and the first site of a row.
 
-A kick is a flow that reads neighbours and changes only momenta, in place. A kick has the same functions as a
-sweep over all sites (:mod:`codegen.run.sites`).
+A kick is a flow that reads neighbours and changes only momenta, in place. A kick has the functions
+``sweep_K``, ``site_K`` and ``pass_K`` (:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # In a sweep over single sites, the axis is OWN. If the sweep reads neighbours, the sweep is a kick.
+    # A sweep with the axis OWN changes single sites. If it also reads neighbours, it is a kick.
     if sweep.axis == OWN and sweep.neighbours:
         # The last flow of a step tests the whole new state, so a kick needs no test for infinities and NaNs.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
@@ -128,21 +128,21 @@ class _Part:
         The flow must call sines, cosines or Stumpff functions, but no other functions with branches.
         """
         _, inside, _ = split(self.own.kernel, set())
-        # The functions ``sqrt``, ``fabs`` and ``choose`` are always computed without branches.
+        # The functions ``sqrt``, ``fabs`` and ``choose`` never have branches, so they need no fast variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A single call of a function with branches prevents vector instructions in the whole loop. In such a
-        # loop, sines without branches save no time.
+        # A call of another function with branches prevents vector instructions in the whole loop. Then fast
+        # variants of sines save no time.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
     @property
     def strided(self) -> bool:
-        """True if the first sites of consecutive pairs are two places apart in memory."""
+        """True for pairs along the last axis: consecutive pairs are contiguous in memory."""
         return self.paired and self.own.axis == self.step.dimension - 1
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The duration of the flow and the parameters of the problem, if the flow reads them."""
+        """The scalars that the flow reads, among its duration and the parameters of the problem."""
         read = symbols_of(self.own.kernel)
         return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
 
@@ -150,8 +150,8 @@ class _Part:
     def arrays(self) -> tuple[Term, ...]:
         """The arrays that the flow reads or changes, as arguments of the emitted functions.
 
-        A flow of pairs changes the new state in place. A flow of single sites reads the first array and
-        writes the second array. A call may pass the same array twice.
+        A flow of pairs changes the new state in place. A flow of single sites has two arrays: it reads the
+        first and writes the second. A call may pass one array for both.
         """
         # The first flow of a step reads the old state and writes the new state, so no state is copied.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
@@ -165,10 +165,10 @@ class _Part:
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
-        """Return an entry of a row.
+        """Return the entry of a row at one site.
 
-        If ``neighbour`` is OWN, the entry belongs to the site itself. Otherwise the entry belongs to the
-        other site of the pair.
+        If ``neighbour`` is OWN, this is the site itself, or the first site of the pair. Otherwise it is the
+        second site of the pair.
         """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
@@ -178,26 +178,25 @@ class _Part:
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function ``flow_K`` or ``whole_K``. Here ``name`` is ``flow`` or ``whole``, and K is the
-        number of the part.
+        """Return the function ``flow_K`` or ``whole_K``. The argument ``name`` is ``flow`` or ``whole``.
 
         The function contains a loop over consecutive sites, or over pairs of neighbours. If ``near`` is True,
-        the loop calls sines and Stumpff functions without branches, which accept only small arguments.
+        the loop calls fast variants of sines and Stumpff functions, which are valid only near zero.
         """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # PLACE is the index of the first site of a pair. In a strided loop, the second site is the next
-            # site in memory, so compilers can load both sites with one instruction.
+            # PLACE is the index of the first site of a pair. If ``strided`` is True, the index of the second
+            # site is PLACE + 1. Then compilers can load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Only the functions for single sites test whether their results are finite. This is enough, because
-        # the last flow of a step always changes single sites.
+        # The last flow of a step always changes single sites. Therefore pairs need no test for infinities and
+        # NaNs.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # In a strided loop, the two sites of a pair are adjacent in memory, so one start index is enough.
+        # If ``strided`` is True, the second site follows the first site, so one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Consecutive sites: {self.own.about}."
@@ -220,8 +219,8 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The first ``size`` values belong to the site. In a pair, all other values belong to the second
-            # site.
+            # The first ``size`` values belong to the site, or to the first site of the pair. All other values
+            # belong to the second site.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
@@ -232,13 +231,13 @@ class _Part:
         flows change the new state in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
-        # In the function ``part_K``, the argument ``h`` is the duration of the flow and not the step size.
+        # The parameter ``h`` of ``part_K`` receives the duration of the flow, not the step size.
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # BAD is the number of sites whose new state is not finite. Each flow may overwrite BAD, because only
-        # the last flow of a step determines the status.
+        # BAD is the number of sites whose new state is not finite. Later flows overwrite BAD, because only
+        # the value of the last flow of a step is needed.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -262,7 +261,7 @@ class _Part:
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
         """Return the statements that call ``flow_K`` or ``whole_K``.
 
-        If ``whole_K`` exists and the argument ``whole`` is true, the statements call ``whole_K``.
+        If ``whole_K`` exists, the emitted code calls it if the flag WHOLE is true.
         """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
@@ -274,7 +273,7 @@ class _Part:
         """Return the function ``part_K`` for a flow of single sites."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
-        # Several processors add to BAD, so the loop declares BAD as a sum (a reduction).
+        # Several processors add to the counter BAD, so the loop declares BAD as a sum (a reduction).
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
@@ -303,8 +302,8 @@ class _Part:
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The last and the first site of a periodic row form a pair. The last site is the first site
-                # of this pair and has an odd index, so the pair has colour 1.
+                # In a periodic row, the last site forms a pair with the first site of the row. The last site
+                # has an odd index, so this pair has colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
@@ -314,7 +313,7 @@ class _Part:
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
-            # No two pairs of a set have a common site, so the pairs can be computed in any order.
+            # Pairs of one colour have no common site, so they can be computed in parallel.
             body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
@@ -342,7 +341,7 @@ class _Part:
 
 
 def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function:
-    """Return the function that makes one step. The caller tests the shape of the lattice."""
+    """Return the function that makes one step. The caller tests whether the lattice has a valid shape."""
     domain = ExprDomain()
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):

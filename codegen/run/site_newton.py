@@ -1,19 +1,19 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
 The equations are u = g(u), with the same number of unknowns at each site. Newton's matrix is 1 - g', where g'
-is the Jacobian of g. In each step, the matrix is computed to first order in h and factored once. The
-equations of site i contain three blocks of the matrix. The blocks A_i, B_i and C_i multiply the unknowns of
-the left neighbour, of the site itself, and of the right neighbour.
+is the Jacobian of g. In each step, the matrix is factored once. It is computed to first order in the step
+size h, because higher orders would cost more. The rows for site i contain three blocks of the matrix: A_i,
+B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the right neighbour.
 
 Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
 D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. The products D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i overwrite A_i, B_i
 and C_i. Rows are exchanged only within a pivot block.
 
 In a periodic chain the first and the last site are neighbours. The columns of the matrix for the unknowns of
-the last site are called the border. The equations of all sites except the last are solved for several
-right-hand sides: the residuals and the columns of the border. The equations of the last site then give the
-unknowns of the last site. The unknowns of all other sites follow. The work and the memory of a step are
-proportional to the number of sites.
+the last site are called the border. First, the equations of all other sites are solved for several right-hand
+sides: the residuals and the columns of the border. Second, the equations of the last site give its unknowns.
+Third, the unknowns of all other sites are computed. The work and the memory of a step are proportional to the
+number of sites.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class ChainSolver:
 
     @property
     def newton(self) -> SiteNewton:
-        """The description of Newton's matrix for the block."""
+        """The description of Newton's matrix for the implicit block."""
         assert self.block.newton is not None
         return self.block.newton
 
@@ -74,11 +74,11 @@ class ChainSolver:
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
-        """Return the full name of a function: the argument ``of``, followed by the number of the block."""
+        """Return the name of a function: ``of``, followed by the number of the implicit block."""
         return f"{of}_{self.index}"
 
     def functions(self) -> list[Function]:
-        """Return the functions. Each function comes after the functions that it calls."""
+        """Return the emitted functions. Callees come before their callers."""
         return [self.linearise(), self.substitute(), self.factor(), self.correct()]
 
     def prepared(self) -> list[Statement]:
@@ -100,7 +100,7 @@ class ChainSolver:
         return Call(self.name("correct"), (SITES, self.work, MEASURED))
 
     def row(self, number: int) -> Term:
-        """Return the index at which a row of the workspace begins."""
+        """Return the index at which row ``number`` of the workspace begins."""
         return row_of(self.step, number)
 
     def cell(self, site: Term, block: int, i: Term, j: Term) -> Term:
@@ -111,7 +111,7 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return the entry for equation i of a site in column j of the border.
+        """Return the entry of the border in column j and in the row of equation i of a site.
 
         The border consists of the columns of the matrix that multiply the unknowns of the last site.
         """
@@ -122,8 +122,8 @@ class ChainSolver:
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
-        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites
-        in an open chain. In a periodic chain, ``_INNER`` does not include the last site.
+        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites.
+        In a periodic chain, the last site is not counted.
         """
         # A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
@@ -153,7 +153,7 @@ class ChainSolver:
             if symbol in read and there is not None:
                 body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
         body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
-        # The kernel returns the entries of a site in the order in which they are stored.
+        # The outputs of the kernel are the entries of the three blocks of a site, in the order of storage.
         first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
@@ -163,22 +163,22 @@ class ChainSolver:
         arrays = {x.row.array for x in newton.loads} | {"work"}
         scalars = tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
         given = tuple(array for name, array in ARRAYS.items() if name in arrays)
-        about = "The blocks of the matrix of Newton's method, site after site."
+        about = "Compute the blocks of Newton's matrix at all sites."
         start = Assign(_BASE, self.row(newton.matrix))
         return Function(self.name("linearise"), about, (SITES, *given, *scalars), (start, *before, loop))
 
     def substitute(self) -> Function:
-        """Return the function that solves the factored equations for one right-hand side.
+        """Return the function that solves the linear equations for one right-hand side.
 
-        The solution overwrites the right-hand side.
+        The matrix is already factored. The solution overwrites the right-hand side.
         """
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
-        # In forward substitution, OWN_BLOCK is the inverse P of the pivot block. The block LEFT is already
-        # multiplied by P.
+        # The function ``factor`` has replaced OWN_BLOCK by the inverse P of the pivot block, and LEFT by P
+        # times LEFT.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -213,13 +213,13 @@ class ChainSolver:
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
     def factor(self) -> Function:
-        """Return the emitted function that factors the matrix and returns the number of singular blocks."""
+        """Return the emitted function that factors the matrix. It returns the number of singular pivots."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
-        # The elimination continues after a singular block. The caller tests the number of singular blocks.
+        # A singular pivot block does not end the elimination. The caller tests the number of such blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The pivot block is OWN_BLOCK minus LEFT times R. R is the block RIGHT of the previous site, and is
-        # already multiplied by the inverse pivot block of the previous site.
+        # The pivot block is OWN_BLOCK minus LEFT times R. Here R is the product that has overwritten RIGHT of
+        # the previous site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -248,28 +248,28 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # Two blocks of the matrix are copied to the border before the elimination overwrites them.
+            # These statements copy two blocks to the border before the elimination overwrites the blocks.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
             Return(_SINGULAR),
         ]
-        about = "Factor the matrix by block elimination; return the number of singular blocks."
+        about = "Factor the matrix by block elimination; return the number of singular pivot blocks."
         return Function(self.name("factor"), about, (SITES, self.work), tuple(body), Kind.COUNT)
 
     def both(self, body: tuple[Statement, ...]) -> For:
-        """Return two nested loops that execute ``body`` for each row and column of a block."""
+        """Return two nested loops that execute ``body`` for each entry (i, j) of a block."""
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that copy blocks of the matrix to the border (:meth:`border`)."""
         # Two blocks multiply the unknowns of the last site: the block LEFT of site 0, and the block RIGHT of
-        # its left neighbour. ``_LAST`` is the index of the left neighbour.
+        # site ``_LAST``. The site ``_LAST`` is the left neighbour of the last site.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, ``_LAST`` is 0, so both blocks belong to site 0. The border then
-            # contains their sum. Therefore each block is added to the border.
+            # The blocks are added, because both blocks of a chain of two sites have the same place in the
+            # border (``_LAST`` is 0).
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -278,15 +278,14 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        These statements first solve the equations of all other sites. Each column of the border
-        (:meth:`border`) is a right-hand side. The solution overwrites the column.
+        These statements first solve the equations of all other sites. The right-hand sides are the columns of
+        the border (:meth:`border`). Each column is overwritten with its solution.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The elimination does not change the blocks of the last site. The block RIGHT of the last site
-        # multiplies the solution at site 0. The block LEFT multiplies the solution at the left neighbour,
-        # which has the index ``_LAST``.
+        # All three blocks belong to the last site. Its right neighbour is site 0, and its left neighbour is
+        # site ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -313,7 +312,7 @@ class ChainSolver:
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
-                # The maximum may ignore a NaN. The sum is NaN if a change is NaN.
+                # A maximum may ignore a NaN, but a sum does not. Therefore the sum is computed, too.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
@@ -330,15 +329,15 @@ class ChainSolver:
             For(PLACE, SITES, tuple(inner)),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
         ]
-        about = "Solve the linear equations, and add the solution to the unknowns. Compute three numbers: "
-        about += "the largest change, the largest old unknown, and the sum of all changes (absolute values)."
+        about = "Solve the linear equations, and add the solution to the unknowns. Compute the largest "
+        about += "absolute change, the largest absolute old unknown, and the sum of all absolute changes."
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that complete the solution in a periodic chain.
+        """Return the statements that complete the solution of the linear equations in a periodic chain.
 
-        These statements compute the solution at the last site, and then correct the solution at all other
-        sites.
+        They compute the solution at the last site, and then correct the solution at all other sites.
+        ``first`` is the index in the workspace at which the right-hand side begins.
         """
         n, value = self.n, real("value", self.n)
 
@@ -358,8 +357,8 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # The border now contains the solutions for its columns. At each other site, the border times the
-        # solution at the last site is subtracted.
+        # The function ``factor`` has overwritten the columns of the border with solutions. The product of the
+        # border and the solution at the last site is subtracted at all other sites.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),
@@ -375,5 +374,5 @@ class ChainSolver:
 
 
 def unsolved() -> Term:
-    """Return the test whether at least one pivot block of the matrix is singular."""
+    """Return the condition that at least one pivot block of the matrix is singular."""
     return _SINGULAR > 0
