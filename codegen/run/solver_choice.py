@@ -1,32 +1,31 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method reuses an exact matrix as long as the iteration converges fast. In each step, simplified
-Newton computes an approximate matrix that is correct to first order in h. Fixed-point iteration needs no
-matrix, and each sweep multiplies the error by a factor O(h).
+Newton's method can use the same matrix in several steps. Simplified Newton computes a matrix in each step or
+substep, correct to first order in h. Both matrices are described in :class:`codegen.ir.kernel.Newton`.
+Fixed-point iteration needs no matrix, and each sweep multiplies its error by a factor O(h).
 
-The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). A trial
-(:mod:`codegen.run.trial`) makes the first :data:`STEPS` steps from the initial state of the problem's example
-and counts the sweeps and matrices. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts
-the time of a step. ``benchmarks/solver_choice.py`` compares the choices with measured times.
+The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). The first
+trial of a solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's
+example. It counts the sweeps and the computed matrices. From these counts the cost model
+(:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py`` compares the
+choices with measured times.
 
-The step size of this trial is called usual. A second trial makes one step of :data:`LONGER` times the usual
-size. A solver is robust if it converges in both trials and needs at most :data:`SWEEPS` sweeps in the long
-step. Let L be the Lipschitz constant of the equations. The number of sweeps of fixed-point iteration grows
-without bound as h L tends to 1. For linear equations, the number of sweeps of Newton's method does not grow
-with h L.
+The first trial uses the step size of the example, called the usual step size. The second trial makes one step
+of :data:`LONGER` times this size. A solver is robust if it converges in both trials and needs at most
+:data:`SWEEPS` sweeps in the second trial. Fixed-point iteration needs more sweeps in longer steps. For linear
+equations, the number of sweeps of Newton's method does not grow with the step size.
 
 A robust solver is preferred if its predicted time is at most :data:`PRICE` times the time of the fastest
 solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
 or 36 unknowns (``benchmarks/README.md``).
 
-For linear equations, a robust solver is preferred at any cost. Newton's method rarely computes a new matrix
-for them, and only accuracy limits the step size. A step is slower, but a run may be faster, because its steps
-can be longer.
+For linear equations, a robust solver is preferred at any cost. Its steps may be slower, but they can be much
+longer, so the whole run may be faster.
 
-A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
-computed first. If this bound is too large, the kernel is not built (:meth:`_Selection.consider`). Trials with
-more than :data:`LARGE` unknowns make fewer steps.
+A kernel with many unknowns takes long to build and to try. Therefore a lower bound of its step time is
+computed first. If another solver is known to be preferred even at this bound, the kernel is not built
+(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
 from __future__ import annotations
@@ -75,7 +74,7 @@ solver.
 LARGE = 64
 """With more than LARGE unknowns, the first trial makes only FEW_STEPS steps.
 
-Continuation in h is not tried, because it may take thousands of sweeps.
+With this number of unknowns, continuation in h is not tried. It might take thousands of sweeps.
 """
 
 
@@ -100,7 +99,7 @@ class Choice:
     converges: bool = True
 
     def text(self) -> str:
-        """Return the text on this choice for the header of emitted code.
+        """Return the line that describes this choice in the header of emitted code.
 
         >>> Choice("stage 1", 3, "newton", "as asked for").text()
         "stage 1: Newton's method, 3 unknowns; as asked for"
@@ -190,7 +189,8 @@ def is_linear(loop: Loop) -> bool:
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
     """Return the degree of an expression as a polynomial in the unknowns: 0, 1 or NONLINEAR.
 
-    ``degrees`` contains the degree of each symbol that depends on the unknowns.
+    ``degrees`` contains the degree of each symbol that depends on the unknowns. All other symbols have the
+    degree 0.
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
@@ -240,7 +240,7 @@ class Candidate:
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return a text on the results of the trials for block number ``k``."""
+        """Return a text that describes the results of both trials for block number ``k``."""
         # If the usual steps did not converge, there was no trial with a longer step.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
@@ -302,8 +302,8 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # Every solver that converges is allowed if there is no robust solver, or if each robust solver takes
-        # more than PRICE times as long as the fastest solver. The second rule is for nonlinear equations.
+        # If no robust solver exists, every solver that converges is allowed. For nonlinear equations, every
+        # such solver is also allowed if each robust solver takes more than PRICE times the shortest time.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -330,8 +330,8 @@ class _Selection:
         If a lower bound of the step time shows that the solver would not be chosen, no kernel is built.
         """
         least = self.least(solver)
-        # For linear equations a robust solver is preferred even if it is slow. Therefore Newton's method is
-        # tried for linear equations if fixed-point iteration is not robust.
+        # For linear equations a robust solver is preferred even if it is slow. If fixed-point iteration is
+        # not robust, Newton's method is therefore tried, whatever its lower bound is.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
@@ -342,7 +342,7 @@ class _Selection:
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
         except (NotDifferentiable, ZeroDivisionError) as error:
-            # This solver cannot be used. The text of the error is reported with the choice.
+            # The matrix of this solver cannot be computed.
             self.refused[solver] = str(error)
             self.left_out[solver] = f"not possible: {error}"
             return
@@ -354,13 +354,12 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the step time in nanoseconds below which another solver may replace ``candidate``.
+        """Return the step time in nanoseconds below which another solver is worth a trial.
 
-        ``solver`` is the solver of ``candidate``.
+        ``candidate`` has been tried and converges. ``solver`` is its solver.
         """
-        # A robust solver may take up to PRICE times as long as a candidate that is not robust. With more than
-        # LARGE unknowns, this factor is not used for Newton's method. Otherwise simplified Newton would often
-        # be tried, and its trial is slow because it inverts a large matrix in each step.
+        # If ``candidate`` is not robust, a robust solver may take PRICE times as long. For Newton's method
+        # with more than LARGE unknowns, this factor is omitted, to avoid a slow trial of simplified Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -371,8 +370,8 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The bound assumes a single sweep over each block in each step or substep. It omits the inversion of
-        small matrices, because the formulas for these inverses are not known before the kernel is built.
+        The bound assumes that each solution of a block takes one sweep. It omits the inversion of small
+        matrices, because the formulas for these inverses are not known before the kernel is built.
         """
         # This is the work of the sweeps. The loop below adds the work with matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
@@ -380,10 +379,10 @@ class _Selection:
         )
         for loop in self.fixed.loops:
             n = len(loop.unknowns)
-            # Multiplying the inverse by the residuals takes n^2 multiplications and about n^2 additions.
+            # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each substep. Newton's method may reuse a matrix in all
-            # steps of the trial.
+            # Simplified Newton inverts a matrix in each step or substep. Newton's method inverts its
+            # matrix at least once in the whole trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -392,18 +391,15 @@ class _Selection:
 
     @property
     def parts(self) -> int:
-        """The number of substeps in a step, or 1 if a step has no substeps.
-
-        Each block is solved once in a substep.
-        """
+        """The number of substeps in a step, or 1 if a step has no substeps."""
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves each block with its best solver.
 
-        ``best`` contains the best solver for each block. If these solvers differ, a candidate M with several
-        solvers is tried. Let U be the fastest candidate that uses one solver for all blocks. M is returned if
-        M is robust. M is also returned if M converges and U is not robust. In all other cases U is returned.
+        ``best`` contains the best solver for each block. If these solvers differ, their combination is tried.
+        If the combination fails or is less robust, the fastest candidate of ``robust`` is returned instead.
+        That candidate uses one solver for all blocks.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
@@ -417,9 +413,9 @@ class _Selection:
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choices for a problem on which every solver failed in its first trial.
 
-        With at most LARGE unknowns, continuation in h is tried for each solver. The solver with the shortest
-        predicted time is chosen among those that converge. If none converges, or with more unknowns, Newton's
-        method is chosen. If there is no kernel with Newton's method, fixed-point iteration is chosen.
+        With at most LARGE unknowns, each solver is tried with continuation in h. Among the solvers that
+        converge, the solver with the shortest predicted time is chosen. In all other cases Newton's method is
+        chosen. If there is no kernel with Newton's method, fixed-point iteration is chosen.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -440,13 +436,13 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
-                # If ``small`` is False, no continuation was tried, and the text times False is empty.
+                # Continuation was tried only if ``small`` is True. A text times False is empty.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 
     def weakness(self, solver: str) -> str:
-        """Return the reason why a solver is not robust. The solver must converge in its first trial."""
+        """Return the reason why a solver is not robust although its first trial converged."""
         far = self.candidates[solver].far
         # The first trial converged, so there was a second trial.
         assert far is not None
@@ -458,7 +454,7 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
-            # For a solver that was not tried, ``left_out`` contains the reason.
+            # If a solver was not tried, the text is the reason in ``left_out``.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

@@ -1,7 +1,6 @@
 """Statistics of a run: the numbers of sweeps and of Newton matrices, and the block of equations that failed.
 
-The caller passes a record, and a run adds its counts to this record. If the caller passes no record, nothing
-is counted. The loops that solve equations call emitted functions that update the record.
+The caller of a run may pass a record. The run then adds its counts to this record.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from codegen.run.plan import STATISTICS, Plan
 from codegen.run.terms import OK, STATUS, Kind, Term, code, count, flag, given, whole
 
 SWEEPS = count("sweep")
-"""The emitted variable that counts the sweeps of an iteration. Each iteration starts at zero."""
+"""The emitted variable that counts the sweeps of one loop."""
 
 
 def statistics_record(plan: Plan) -> Record:
@@ -20,11 +19,11 @@ def statistics_record(plan: Plan) -> Record:
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
-        (count("most"), "largest number of sweeps of one block in one step"),
+        (count("most"), "largest number of sweeps of one block in one step or substep"),
         # Blocks are numbered from 1, so that 0 can mean that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Simplified Newton needs no such field, because the number of its matrices is known.
+    # Simplified Newton needs no such field, because it computes one matrix in each step or substep.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
@@ -32,14 +31,14 @@ def statistics_record(plan: Plan) -> Record:
 
 
 def counters(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that update the statistics."""
+    """Return the emitted functions that add counts to the caller's record."""
     statistics, block, sweeps, failed = plan.statistics, count("block"), count("sweeps"), flag("failed")
     most, last = (statistics.field(name, Kind.COUNT) for name in ("most", "failed"))
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The record also contains the largest number of sweeps in one step. A single step with many sweeps is
-        # the first sign that the step size is too large. The sum over all steps does not show such a step.
+        # A single step with many sweeps is the first sign that the step size is too large. The sum over all
+        # steps does not show such a step.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -48,7 +47,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
-            # This function tests whether the caller passed a record, so the loops need no test.
+            # The caller's record is optional.
             (If(given(statistics), adding),),
         )
     ]
@@ -60,20 +59,20 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call that adds the sweeps of the loop with the index ``block`` to the statistics.
+    """Return the call that adds the sweeps over the block with the index ``block`` to the statistics.
 
-    If the status is not OK, the call also records that this block failed.
+    If the status is not OK when the code is executed, the call also records that this block failed.
     """
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call that adds one matrix of Newton's method to the statistics."""
+    """Return the call that increases the number of Newton matrices in the statistics by one."""
     return Call("count_matrix", (plan.statistics,))
 
 
 def no_failure(plan: Plan) -> Statement:
-    """Return the statement that sets the field ``failed`` to zero.
+    """Return the statement that sets the field ``failed`` of the statistics to zero.
 
     The emitted code executes this statement if a failed step is repeated and succeeds.
     """

@@ -36,7 +36,7 @@ MEANINGS = {
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "an event function is infinite or NaN, or the buffer for events is too short",
-    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
+    BAD_SHAPE: "a dimension has too few sites, or needs an even number of sites",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
 """Maps each status to the comment that explains it in the header of emitted code."""
@@ -53,7 +53,7 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
+    BAD_SHAPE: "a dimension has too few sites, or needs an even number of sites",
     BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is not finite for h = {h}",
 }
 """Maps each status of a failure to the text that explains the failure in error messages.
@@ -61,7 +61,7 @@ REASONS = {
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
 NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
-"""The text for NOT_FINITE that replaces the text in REASONS if an implicit block has failed."""
+"""If an implicit block has failed, this text explains NOT_FINITE instead of the text in REASONS."""
 
 
 @dataclass(frozen=True)
@@ -77,16 +77,16 @@ class StatusCode:
     reason: str
 
 
-# Each status has the same number in all modules.
+# Each status has the same number in all emitted modules.
 MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
-"""The statuses that emitted code for steps on Fourier modes can return, with their numbers."""
+"""Maps each status that a step on Fourier modes can return to its number."""
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
     # In a step on Fourier modes, n is the number of points of the grid.
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
-"""The same comments as in MEANINGS for steps on Fourier modes, except for BAD_SHAPE."""
+"""Maps each status of a step on Fourier modes to its comment in the header of emitted code."""
 
 
 def reason(status: str, block: str, h: float) -> str:
@@ -100,19 +100,18 @@ def reason(status: str, block: str, h: float) -> str:
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
-    # If a block of equations has failed, the new state was not computed, so the text names the block.
+    # If a block of equations has failed, there is no new state.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 
 
 def statuses(unit: Unit) -> tuple[StatusCode, ...]:
-    """Return the status codes that the functions of a unit can return, in the order of their numbers."""
+    """Return the status codes that the emitted functions can return, in the order of their numbers."""
     # Every function that returns a status can return OK.
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}
-        # With the guard RAISES_STATUS, a function also returns NOT_FINITE after an arithmetic error. The body
-        # of the function need not contain this status.
+        # With the guard RAISES_STATUS, a function also returns NOT_FINITE after an arithmetic error.
         if function.guard == RAISES_STATUS:
             used.add(NOT_FINITE)
     return tuple(

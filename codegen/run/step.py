@@ -1,8 +1,8 @@
 """Build the emitted functions for one step and for one substep.
 
-If a step fails, the state is unchanged. A step fails if the step size or the new state contains an infinity
-or a NaN. Entries of the old state that the kernel does not read must be finite, too. There are other
-reasons for failure: for example, the iteration for an implicit equation does not converge.
+A step evaluates the kernel once, or once in each substep. If a step fails, the state is unchanged. A step
+fails if the step size, the new state, or an entry of the old state that the kernel does not read is not
+finite. A step also fails if the iteration for an implicit equation does not converge.
 """
 
 from __future__ import annotations
@@ -52,19 +52,19 @@ ADVANCE, SUBSTEP = "advance", "substep"
 
 
 def core(plan: Plan) -> str:
-    """Return the name of the emitted function that evaluates the kernel."""
+    """Return the name of the emitted function that evaluates the kernel: SUBSTEP if a step has substeps."""
     return SUBSTEP if plan.parts else ADVANCE
 
 
 def kernel_step(plan: Plan) -> Function:
-    """Return the emitted function that evaluates the kernel, for a step or for a substep."""
+    """Return the emitted function that evaluates the kernel once, that is, makes one step or substep."""
     state = plan.state()
     read = plan.arrangement.symbols()
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # The outputs read the old state, so all outputs are computed before the first entry of the state is
-    # overwritten.
+    # The formulas of the new entries read the old state. Therefore all new entries are computed before the
+    # first entry of the state is overwritten.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read some entries of the state. A NaN in such an entry would not appear in the
     # results of the kernel, so these entries are tested separately.
@@ -99,7 +99,7 @@ def _remembered(plan: Plan) -> list[Statement]:
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
-    # All loops of a step share one warm start, so one array contains the unknowns of all loops.
+    # One array contains the unknowns of all loops.
     unknowns = tuple(own(u) for u in plan.start.unknowns)
     return [Array(solution, unknowns), Call("remember", (plan.memory, solution))]
 
@@ -116,16 +116,15 @@ def _errors(plan: Plan) -> list[Statement]:
 def _aged(plan: Plan) -> list[Statement]:
     """Return the statements that update the age of each stored inverse matrix after a step.
 
-    A new matrix has the age 1, and each step adds 1. If a loop does not use its inverse for a fixed number of
-    steps (``period``), no statement is returned for this loop.
+    A new matrix has the age 1, and each step adds 1. After ``period`` steps the age becomes 0, and the next
+    step computes a new matrix. If a loop has no period, its matrix has no such age limit.
     """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps, an iteration with the old matrix would converge slowly. Therefore the age
-        # becomes 0. At the age 0, the next step computes a new matrix.
+        # With an older matrix, the iteration would converge slowly.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
@@ -133,8 +132,8 @@ def _aged(plan: Plan) -> list[Statement]:
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
     """Return the time ``start + steps * h``. It is computed in double precision and then rounded once."""
-    # The update ``t += h`` would accumulate a rounding error in each step. In single precision, a short step
-    # might not change t at all.
+    # Repeated updates ``t += h`` would accumulate rounding errors. In single precision, a short step might
+    # not change t at all.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
@@ -154,8 +153,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
     """Return the start time and the step size of the substep with the index ``part``."""
-    # The time is computed from the beginning of the step. Adding the lengths of all earlier substeps would
-    # accumulate rounding errors.
+    # A sum of the lengths of all earlier substeps would accumulate rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
@@ -163,8 +161,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # The warm start extrapolates solutions along a smooth curve. Only the solutions of the same substep in
-    # successive steps lie on such a curve, so each substep has its own memory.
+    # The initial guess is extrapolated from earlier solutions on a smooth curve. Only the solutions of the
+    # same substep in successive steps lie on such a curve. Therefore each substep has its own memory.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -176,8 +174,7 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
-        # The substeps change a copy of the state. If a later substep fails, the caller's state is still the
-        # state before the whole step.
+        # The substeps change a copy of the state. If a substep fails, the caller's state remains unchanged.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),
