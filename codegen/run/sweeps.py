@@ -1,16 +1,20 @@
 """Loops that solve implicit equations: fixed-point iteration, and Newton's method in three forms.
 
-The equations are u = g(u) or r(u) = 0. A sweep computes the components of g(u), which are called the images
-of the unknowns u. Fixed-point iteration then assigns the images to the unknowns. The last sweep omits this
-assignment, so that all values computed in it belong to the accepted unknowns. In every sweep, Newton's method
-multiplies the residuals by the inverse of a matrix and adds the product to the unknowns. The three forms of
-Newton's method use different matrices:
+The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The components of g(u) or
+r(u) are called the images of the unknowns u.
 
-- *Newton*: the exact matrix. Later sweeps and later steps use the same matrix. If a change exceeds
+Fixed-point iteration assigns the images to the unknowns. The last sweep omits this assignment. Therefore the
+unknowns keep the values from which the last sweep has computed its results.
+
+Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
+the unknowns. The three forms of Newton's method use different matrices:
+
+- *Newton*: the matrix 1 - g'(u). Its inverse is stored for later sweeps and steps. If a change exceeds
   ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. If a new matrix is
   singular, the loop fails. If the change does not decrease with a new matrix, the loop fails, too.
-- *simplified Newton*: the matrix to first order in h. Each step computes the matrix before its sweeps.
-- *residuals*: the matrix of the equations r(u) = 0, to first order in h. It is used for ``Newton.period``
+- *simplified Newton*: the matrix 1 - g'(u), expanded to first order in h. Each step computes the matrix
+  before its sweeps.
+- *residuals*: the matrix -r'(u), expanded to first order in h. Its inverse is used for ``Newton.period``
   steps.
 """
 
@@ -105,8 +109,8 @@ class _Loop:
     def images(self) -> list[Term]:
         """The variables that contain the images, which are the components of g(u) or r(u).
 
-        If the statements of a sweep have already assigned an image to a variable, this variable is used. The
-        name of any other image is ``next`` followed by the name of the unknown.
+        If a variable other than an unknown contains an image, no new variable is needed. The name of a new
+        variable is ``next`` followed by the name of the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -130,7 +134,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements that compute the images of the unknowns in one sweep."""
+        """Return the statements of one sweep that compute the components of g(u) or r(u)."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -146,8 +150,8 @@ class _Loop:
     ) -> list[Statement]:
         """Return the loop with the given body, and the statements that follow the loop.
 
-        If the test ``astray`` is true, the loop ends with a failure. If the test ``singular`` is true after a
-        failure, the status becomes SINGULAR.
+        If the test ``astray`` is true, the loop cannot converge and ends. If the loop has failed and the test
+        ``singular`` is true, the status becomes SINGULAR.
         """
         # Array languages have no ``break`` statement. Therefore the loop condition tests the status and the
         # number of sweeps. After too many sweeps the status is NOT_CONVERGED.
@@ -190,15 +194,15 @@ class _FixedPoint(_Loop):
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        # CHANGE is a maximum, and a maximum may ignore a NaN, because comparisons with a NaN are false. A sum
-        # of absolute values is finite only if all summands are finite.
+        # CHANGE is a maximum, and a maximum may ignore a NaN, because comparisons with a NaN are false. The
+        # sum of the sizes shows whether all changes are finite.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same as :meth:`narrow`, but the statements compute the changes in a loop."""
+        """Return the statements of a loop that measures the changes, and the sum of their sizes."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
-        # A maximum may ignore a NaN, but a sum does not. Therefore the loop computes both.
+        # The loop also computes the sum of the sizes, because the maximum may ignore a NaN.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),
@@ -223,23 +227,23 @@ class _Newton(_Loop):
 
     @property
     def newton(self) -> Newton:
-        """The description of the matrix of Newton's method."""
+        """The form of Newton's method and its matrix."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 
     @property
     def kept(self) -> bool:
-        """True if later steps use the same matrix."""
+        """True if the inverse matrix is stored for later steps."""
         return self.iteration.loop.solver == NEWTON
 
     @property
     def making(self) -> Term:
-        """The flag that is true if this sweep computes a matrix."""
+        """The flag that is true if this sweep computes a new matrix."""
         return flag(f"make_{self.number}")
 
     @property
     def age(self) -> Term:
-        """The age of the stored matrix, counted from 1. The value 0 means that no usable matrix is stored."""
+        """The age of the stored matrix: 1 for a new matrix, and 0 if no usable matrix is stored."""
         return self.plan.memory.field(f"age_{self.number}", Kind.COUNT)
 
     @cached_property
@@ -272,16 +276,15 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` was computed above from the unknowns before this correction. If the initial guess is
-        # zero, ``SCALE`` is 0 in the first sweep. The first sweep then converges only if all changes are 0.
+        # ``SCALE`` belongs to the unknowns before this correction. If the initial guess is zero, ``SCALE`` is
+        # 0 in the first sweep, and the first sweep converges only if all changes are 0.
         body += self.corrected(changes)
         body += rule.converged()
         # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
         # singular matrix the changes are meaningless, so even small changes do not mean convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the change does not decrease with a new matrix, more sweeps cannot help. The step then needs
-            # a better initial guess.
+            # If the change does not decrease with a new matrix, more sweeps are useless, and the loop fails.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
@@ -304,7 +307,7 @@ class _Newton(_Loop):
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop for equations r(u) = 0. Here ``images`` contains the residuals r(u)."""
+        """Return the loop for equations r(u) = 0. The variables ``images`` contain the residuals r(u)."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
@@ -339,7 +342,7 @@ class _Newton(_Loop):
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that adds one matrix to the statistics.
+        """Return the statement that increases the number of matrices in the statistics by 1.
 
         If ``counting`` is False, the list is empty.
         """
@@ -376,7 +379,7 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return entry number ``place`` of the inverse matrix, counted row by row.
+        """Return entry number ``place`` of the inverse matrix, counted row by row from 0.
 
         Simplified Newton iteration keeps the inverse of a small matrix in scalar variables. All other inverse
         matrices are arrays.
@@ -392,7 +395,7 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The sum is added in pairs, because a processor can add several pairs at the same time.
+            # With ``paired``, a processor can compute several partial sums at the same time.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         # The loop below reads the residuals from an array, so the variables of the residuals are first copied

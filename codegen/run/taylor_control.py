@@ -70,7 +70,7 @@ LEAST = 1e-30
 The formula divides by the norm, so a smaller norm is replaced by this number."""
 
 ROWS = 4
-"""The number of array rows that one iteration reads in the loop for products of Taylor series."""
+"""The number of products that one iteration adds to each inner sum (:func:`inner_sums`)."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -80,15 +80,14 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
-    The functions of :func:`polynomial_step` are omitted if the emitted code already contains them. The tuple
-    is empty if the kernel has no Taylor expansion, or one that does not allow step control.
+    If the kernel has no outputs, :func:`polynomial_step` already returns some of these functions, and they
+    are omitted. If the kernel has no Taylor expansion with step control, the tuple is empty.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, the emitted code also contains the functions of ``polynomial_step``. These
-    # functions include the functions of the polynomial.
+    # If the kernel has no outputs, ``polynomial_step`` returns the functions of the polynomial.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -119,12 +118,12 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
-        # The products are added in pairs, because a processor can add several pairs at the same time.
+        # The products are added in pairs, so that a processor can compute several partial sums at once.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The inner loop runs over the sums, because the sums do not depend on one another. Each iteration loads
-    # one sum, adds the products of ROWS rows, and stores the sum.
+    # The sums do not depend on one another, so a compiler can use vector instructions in the inner loop over
+    # the sums. Each iteration of the inner loop adds ROWS products to one sum.
     many = For(
         j,
         k // ROWS,
@@ -160,8 +159,7 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
-        # The state of the kernel ``coefficients`` consists of the coordinates in which the solution is
-        # expanded.
+        # In this plan, the state consists of the coordinates of the Taylor polynomial.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
@@ -253,8 +251,8 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # The number m of inner sums is rounded up to an even number, because vector instructions compute
-        # pairs.
+        # The number m of inner sums is rounded up to an even number, because a vector instruction computes
+        # at least two numbers.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
         # The last n outputs of the kernel ``first`` are the coefficients of order 1. Its other outputs are
@@ -290,7 +288,7 @@ class _Controlled:
             Array(right),
             Array(sums),
             Assign(ORDER_TERM, number(0.0)),
-            # The coefficients of order 1 are already known.
+            # The coefficients of order 1 are computed before this loop.
             For(k, whole(self.degree - 1), inner),
         )
         about = (
@@ -344,8 +342,8 @@ class _Controlled:
         n, p = self.size, self.degree
         epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
-        # A single coefficient may be zero: every second Taylor coefficient of an even function is zero.
-        # Therefore the last two coefficients are used.
+        # Every second Taylor coefficient of an even function is zero. Therefore the step size depends on
+        # two coefficients.
         for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
@@ -407,7 +405,7 @@ class _Controlled:
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
-            # The step size of the caller does not bound the later steps.
+            # The bound of the caller is for the first step only. The value 0 means that there is no bound.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
@@ -434,8 +432,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # The flag ``finite`` shows that the highest Taylor coefficients are finite. If the old state
-                # is finite, a shorter step would give a finite state, so the status is TOO_FAR.
+                # The highest Taylor coefficients are finite here. If the old state is finite, too, a shorter
+                # step would succeed. Therefore the status is TOO_FAR.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

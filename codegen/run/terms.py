@@ -1,8 +1,8 @@
 """Terms: the symbolic expressions in the statements of the run representation (:mod:`codegen.run.language`).
 
 A term is an expression with reals, counts, flags, status codes or arrays. It has a kind and a shape. An
-expression of the kernel (:class:`codegen.ir.expr.Expr`) becomes a single term (:func:`value`). Python
-operators build terms and compute nothing:
+expression of the class :class:`codegen.ir.expr.Expr` becomes a single term (:func:`value`). Python operators
+build terms and compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -54,12 +54,12 @@ class Term:
     """A symbolic expression: an operation on terms, a name, or a constant.
 
     - ``text`` is the name of a variable, function or field.
-    - ``own`` is True for a name from the kernel. If the target language does not allow this name, the emitted
-      code uses another one.
+    - ``own`` is True for a name from the kernel (:class:`codegen.ir.kernel.Kernel`). If the target language
+      does not allow this name, the emitted code uses another name.
     - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
       only at run time.
     - ``optional`` is True for an argument that the caller may omit.
-    - ``cell`` is True for an array with one entry. A function returns a value in this entry.
+    - ``cell`` is True for an array with one entry, in which a function returns a value.
     """
 
     op: str
@@ -166,14 +166,14 @@ _COUNT = Term("name", kind=Kind.COUNT)
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # If the other operand ``like`` is a count or a flag, a Python number becomes a count. Otherwise it is a
-    # real.
+    # If the other operand ``like`` is a count or a flag, the Python number becomes a count. In all other
+    # cases, the Python number becomes a real.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
 
 def _arithmetic(op: str, x: Term, y: Operand) -> Term:
-    # As in C, the result is wide (a double) if at least one operand is wide.
+    # If at least one operand is wide (a double), the result is wide, as in C.
     right = _term(y, x)
     return Term(op, (x, right), Kind.WIDE if Kind.WIDE in (x.kind, right.kind) else x.kind)
 
@@ -199,12 +199,12 @@ def flag(name: str) -> Term:
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return the real variable of the kernel with this name, or the array with this name and shape."""
+    """Return a real variable, or an array of reals with the given shape. The name is from the kernel."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return a record called ``name``, or an array of records. The record type is called ``of``."""
+    """Return a record of the type ``of``, or an array of records of this type."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
@@ -227,22 +227,22 @@ def code(name: str) -> Term:
 
 
 def number(x: float) -> Term:
-    """Return the number ``x`` as a constant term (a real)."""
+    """Return ``x`` as a constant term of the kind REAL."""
     return Term("number", (), Kind.REAL, number=x)
 
 
 def whole(n: int) -> Term:
-    """Return the integer ``n`` as a constant term (a count)."""
+    """Return ``n`` as a constant term of the kind COUNT."""
     return Term("number", (), Kind.COUNT, number=n)
 
 
 def truth(x: bool) -> Term:
-    """Return the truth value ``x`` as a constant term (a flag)."""
+    """Return ``x`` as a constant term of the kind FLAG."""
     return Term("number", (), Kind.FLAG, number=int(x))
 
 
 def value(x: Expr) -> Term:
-    """Return an expression of the kernel as a term. A symbol becomes the variable of this name."""
+    """Return the expression ``x`` as a term. A symbol becomes the variable with the same name."""
     # A single symbol becomes a term with the operation ``name``, like every other variable.
     if x.op == "sym":
         return own(x.payload)
@@ -254,13 +254,13 @@ INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
-    """Return the conjunction of tests. Evaluation ends at the first test that is false."""
+    """Return the conjunction of tests. C and Python evaluate no test after the first false one."""
     # The tests are nested as ``(a and b) and c``, because this needs no parentheses in C and Python.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
 def either(*tests: Term) -> Term:
-    """Return the disjunction of tests. Evaluation ends at the first test that is true."""
+    """Return the disjunction of tests. C and Python evaluate no test after the first true one."""
     return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
 
 
@@ -362,9 +362,8 @@ def narrow(x: Term) -> Term:
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield every name in ``terms``, including the names in expressions of the kernel."""
-    # The stack is read from its end, so terms are pushed in reverse order. The names are then yielded in the
-    # order in which they occur.
+    """Yield the named terms in ``terms``, and a variable for each symbol in an expression."""
+    # ``pop`` takes the last term of the list, so the terms are listed in reverse order.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()
