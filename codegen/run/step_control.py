@@ -10,16 +10,16 @@ limited to [0.2, 5]. If the trial directly before the accepted step was rejected
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). With the exponents
 0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would oscillate less, but it would follow the
-solution more slowly: the method ``dop853`` would need 15 to 20 % more steps on ``heavy_top``. After an
-accepted step, norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
+solution more slowly. For example, the method ``dop853`` would need 15 to 20 % more steps for the problem
+``heavy_top``.
 
-If the caller gives no step size, the first trial step has 1/16 of the length of the interval. This size is
-only a guess. If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16].
-If the guess is too large, a few steps are rejected. With a much smaller guess, many steps of a short run
-would be too small.
+If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
+If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16]. If the guess
+1/16 is too large, a few steps are rejected. With a much smaller guess, many steps of a short run would be too
+small.
 
-An implicit step does not use the solutions of earlier steps. After a change of the step size, these solutions
-are bad initial guesses.
+The solutions of earlier steps are bad initial guesses after a change of the step size. Therefore implicit
+steps do not use them.
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
-"""If the caller gives no step size, the first trial step has 1/FIRST of the length of the interval. After the
-first accepted step, the step size is multiplied by FIRST at most."""
+"""If the caller gives no step size, the first trial step is the length of the time interval divided by FIRST.
+After the first accepted step, the step size grows at most by the factor FIRST."""
 
 SHARE = 0.2
 """A constant in the exponents of the controller.
@@ -121,7 +121,10 @@ def between() -> Function:
 
 
 class Controlled:
-    """Builds the run with step control. The attributes are variables of the emitted function."""
+    """Builds the emitted function ``run_adaptive``, which integrates with step control.
+
+    The attributes of the class are variables of this function.
+    """
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -139,7 +142,7 @@ class Controlled:
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
-        """Return the emitted function."""
+        """Return the emitted function ``run_adaptive``."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
@@ -166,8 +169,8 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested only once, before the loop. In the loop, the step size is multiplied by
-        # results of the function ``between``. These results are finite, even if the error norm is a NaN.
+        # The arguments are tested for NaNs and infinities only here. In the loop, the step size is multiplied
+        # by results of ``between``, which are finite, even if the error norm is a NaN.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -216,8 +219,8 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The warm start assumes that all steps have the same size. Here the step size varies, so the memory
-        # is cleared before each trial step.
+        # The memory contains solutions of earlier steps for the initial guess. They are useful only if all
+        # steps have the same size. Here the step size varies, so the memory is cleared.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
@@ -236,7 +239,7 @@ class Controlled:
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:
-        """Return a constant of the controller, rounded to the format of the module."""
+        """Return the constant ``x``, rounded to the floating-point format of the emitted code."""
         return number(self.plan.format.round(x))
 
     def bounded(self, most: Term) -> Call:
@@ -247,9 +250,9 @@ class Controlled:
         """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p). ``previous`` is ``root`` from the previous accepted step, limited to
+        # ``root`` is norm^(-SHARE/p). ``previous`` is ``root`` from the previous accepted step, at most
         # FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. If the caller
-        # gave no step size, the first accepted step has the factor ``root`` in place of ``1 / previous``.
+        # gave no step size, the first accepted step has the factor ``root``. The product is norm^(-1/p).
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial directly before this step was rejected, the step size does not grow after this step
         # (Hairer, Norsett and Wanner).
@@ -262,8 +265,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step may have been shortened to end at ``end``. If the factor is at least 1, the
-                # caller gets the step size from before the shortening.
+                # The last step is often shortened to end at ``end``. Therefore its size replaces the step
+                # size ``length`` only if the factor is below 1.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -275,10 +278,10 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements that are executed after a rejected step.
 
-        The status is set to OK, so that the run continues with a shorter step. If the shorter step cannot
-        change the time in floating-point arithmetic, the status is unchanged.
+        The status is set to OK, and the run continues with a shorter step. If the shorter step is too short
+        to change the time in floating-point arithmetic, the status is unchanged.
         """
-        # If a failed step cannot be shortened, the run ends with the status of this step.
+        # If a step fails and no shorter step is possible, the run ends with the status of the failed step.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -1,20 +1,20 @@
 """The cost model predicts the CPU time of a step.
 
-A sweep is one iteration of a solver. A matrix is the matrix of Newton's method.
+A solver of implicit equations makes several sweeps (iterations) in a step. Newton's method also computes and
+inverts matrices.
 
 The predicted time is a sum of amounts of work, each multiplied by its weight (:data:`WEIGHTS`). The amounts
 are:
 
-- Operations (:mod:`codegen.kernel.operations`). The operations of a sweep are counted in each sweep. The
-  operations of a matrix are counted each time that the matrix is computed. All other operations are counted
+- Operations (:mod:`codegen.kernel.operations`). The operations of a sweep are counted in each sweep. If a
+  matrix is computed several times, its operations are counted each time. All other operations are counted
   once in each step.
 - Unknowns. The time of the warm start is proportional to the number of unknowns. The time of the stopping
   rule in a sweep is also proportional to this number.
 - Corrections. For equations u = g(u), a sweep of Newton's method ends with a matrix-vector product. The
-  product multiplies the inverse matrix by the residuals g(u) - u. The next sweep cannot begin before this
-  product is computed. This delay is counted as one correction in each sweep. For equations in the form
+  next sweep must wait for this product. The delay is counted as one correction in each sweep. For equations
   r(u) = 0, no corrections are counted.
-- Cubes. If an n x n matrix is inverted by elimination, the inversion is counted as n^3.
+- Cubes. The inversion of an n x n matrix by elimination is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
 problems of the gallery. It writes predictions and measurements into ``benchmarks/README.md``. With the option
@@ -34,7 +34,7 @@ from codegen.kernel.schedule import arrange
 Work = Mapping[str, Mapping[str, int]]
 """The numbers of operations in the parts of a step (:func:`codegen.kernel.operations.operations`).
 
-The parts are the sweeps, the matrices, and all other statements."""
+The parts are the sweep of each loop, the matrix of each loop, and all other statements."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Amounts:
     of one unit of work in nanoseconds.
 
     - ``unknowns`` is the number of unknowns.
-    - ``swept`` is the sum of the numbers of unknowns over all sweeps.
+    - ``swept`` counts the unknowns of a loop once in each sweep.
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
@@ -107,7 +107,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work in a step, without the sweeps and the matrices of its loops."""
+    """Return the amounts of work in a step, without the sweeps and the matrices of the loops."""
     # ``work`` does not include the warm start. The time of the warm start is proportional to the number of
     # unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
@@ -130,7 +130,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # If a formula computes the inverse matrix, ``work`` contains the operations of this formula.
+        # If a formula computes the inverse, ``work`` contains its operations, and no elimination is counted.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
@@ -144,14 +144,12 @@ def inversion(n: int) -> Amounts:
 class StepCost:
     """Predicts the cost of a step of one kernel.
 
-    The arguments ``sweeps`` and ``matrices`` are the average numbers of sweeps and of matrices in a step.
-    Each argument contains one number for each loop of the kernel. In the method :meth:`block`, each argument
-    is the number for one loop.
+    ``sweeps`` contains the average number of sweeps in a step for each loop of the kernel. ``matrices``
+    contains the average number of matrices that a loop computes in a step.
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # The operations are counted only once, in this constructor, because the choice of a solver reads the
-        # counts many times.
+        # The operations are counted here, because the choice of a solver reads the counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
@@ -162,8 +160,10 @@ class StepCost:
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts of work in a step for the loop with the index ``k``."""
-        # ``sweeps`` and ``matrices`` are averages over several steps, so they may be fractions.
+        """Return the amounts of work in a step for the loop with the index ``k``.
+
+        The loop makes ``sweeps`` sweeps and computes ``matrices`` matrices. Both numbers are averages.
+        """
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

@@ -11,12 +11,11 @@ loop has converged in three cases:
   next change is the rate times the change. A small change alone does not prove convergence, because a slow
   iteration makes small changes far from the solution.
 - *still*: the change no longer decreases and is nearly as small as the rounding errors.
-- *lost*: the change no longer decreases, and h times the change is below the rounding errors of the state.
-  This case is needed for an unknown that is a small difference of large numbers. The rounding errors of the
+- *lost*: the change no longer decreases. The step size h times the change is below the rounding errors of the
+  state. This case is needed if an unknown is a small difference of large numbers. The rounding errors of the
   large numbers keep the change of this unknown large.
 
-All tests are relative, so the number of sweeps does not depend on the units of the unknowns. If a change is
-not finite, the loop ends with the status NOT_FINITE.
+If a change is not finite, the loop ends with the status NOT_FINITE.
 
 The test of the predicted next change is taken from Hairer and Wanner, Solving Ordinary Differential Equations
 II, section IV.8.
@@ -109,19 +108,18 @@ class Stopping:
 
     @cached_property
     def warm(self) -> bool:
-        """True if the loop has a warm start."""
-        # If the loop has no formulas for the first values of its unknowns, the warm start of the kernel
-        # computes these values.
+        """True if the initial guess is extrapolated from previous steps (a warm start)."""
+        # ``starts`` contains formulas for the initial guess. A loop with a warm start has no such formulas.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
-        """Return the statements before the first sweep."""
+        """Return the statements that initialise the previous change and the rate before the first sweep."""
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # In steps of equal size, the rate hardly changes. Therefore a loop begins with the rate of the
-            # previous step (Hairer and Wanner), and may end after one sweep. If no rate is stored, the rate
-            # is 1. With this rate, the predicted next change equals the change in the first sweep.
+            # In steps of equal size, the rate hardly changes. With the rate of the previous step, a loop can
+            # end after one sweep (Hairer and Wanner). If no rate is stored, the cautious value is 1: the next
+            # change is predicted to be as large as the first.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -144,8 +142,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The change in the first sweep is a measure of the error of the initial guess. The warm start
-            # reads the largest such change of all loops in a step.
+            # The change in the first sweep measures the error of the initial guess. If the largest of these
+            # errors in a step is too large, the warm start discards the earlier solutions.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -160,19 +158,19 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # The predicted next change must be at most the rounding error of the largest unknown. In a loop
-        # without a warm start, the rate is ``CHANGE / previous``. For this loop, both sides of the test are
-        # multiplied by ``previous``, so no division is needed. In the first sweep ``previous`` is 0, and the
-        # test is true only if the change is zero.
+        # The predicted next change must be at most the rounding error of the largest unknown. A loop without
+        # a warm start has no variable for the rate ``CHANGE / previous``. For this loop, both sides of the
+        # test are multiplied by ``previous``, which avoids a division. In the first sweep ``previous`` is 0,
+        # and the test is true only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors may keep the change above the bounds of the test ``close``. In this case the change
-        # no longer decreases, and more sweeps are useless. The change of a diverging iteration does not
-        # decrease either. Therefore a second test is needed: the change is at most ``tolerance`` times
-        # ``SCALE``, or the test :meth:`lost` is true.
+        # Rounding errors can keep the change too large for the test ``close``. Then the change no longer
+        # decreases, and more sweeps are useless. If an iteration diverges, the change does not decrease
+        # either. Therefore the change must also be small: at most ``tolerance * SCALE``, or small enough for
+        # the test :meth:`lost`.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -184,12 +182,12 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the term that tests whether h times the change is below the rounding errors of the state.
+        """Return the test whether the step size times the change is below the rounding errors of the state.
 
-        A loop may solve equations for a variation (a tangent vector at the state). For such a loop, the test
-        uses the rounding errors of the variation in place of those of the state.
+        Some loops solve equations for a variation (a tangent vector at the state). For these loops, the
+        rounding errors of the variation are used.
         """
-        # The array ``vector`` contains the variation. All other arrays belong to the state.
+        # The array ``vector`` contains the variation. All other arrays contain parts of the state.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -205,8 +203,8 @@ class Stopping:
         For equations r(u) = 0, the stopping rule uses these sums in place of the maxima of :meth:`measured`.
         """
         return [
-            # If a change is a NaN, the sum is a NaN, but a maximum may ignore the NaN. Therefore the test
-            # whether the sum is finite is enough.
+            # If a change is a NaN, the sum is a NaN. Therefore :meth:`decided` needs no other test for NaNs.
+            # A maximum could ignore the NaN.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -214,15 +212,15 @@ class Stopping:
     def converged_by_residuals(self) -> list[Statement]:
         """Return the statements that set the flag ``converged`` for equations r(u) = 0.
 
-        The change in a sweep is the sum of the absolute values of all changes. The bound is
-        :data:`FOUR_ROUNDINGS` times the sum of the absolute values of the unknowns. The rate is
-        change/previous. In the first sweep, the rate is the value that the previous step has stored. The
-        loop has converged in these cases:
+        Let ``change`` be the sum of the absolute values of all changes in a sweep, and ``scale`` the sum of
+        the absolute values of the unknowns. The rate is ``change`` divided by its value in the previous
+        sweep. In the first sweep, the rate is the value that the previous step has stored. The bound is
+        :data:`FOUR_ROUNDINGS` times ``scale``. The loop has converged in these cases:
 
-        - The rate is below 1/2, and the predicted next change is below the bound.
-        - The rate is between 1/2 and 1, and the predicted sum of all later changes is below the bound.
-        - The rate is at least 1, and the change is below the tolerance.
-        - The rate is at least 1, and h times the change is below the rounding errors of the state.
+        - The rate is below 1/2, and the predicted next change is at most the bound.
+        - The rate is between 1/2 and 1, and the predicted sum of all later changes is at most the bound.
+        - The rate is at least 1, and ``change`` is at most the tolerance of the loop times ``scale``.
+        - The rate is at least 1, and the test :meth:`lost` is true.
 
         If the rate is at least 1/2, the loop makes at least two sweeps.
         """
@@ -235,7 +233,8 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # If the rate is near 1 or larger, the predicted next change is not reliable.
+            # At a constant rate below 1/2, the sum of all later changes is less than twice the next change.
+            # Therefore it is enough to test the predicted next change.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
@@ -266,11 +265,11 @@ class Stopping:
         - It is OK if the flag ``converged`` and the test ``possible`` are true.
         - It is NOT_CONVERGED in all other cases.
 
-        If the matrix is singular, the test ``possible`` is false. If there is no such test, ``possible`` is
-        None.
+        If the matrix of Newton's method is singular, the test ``possible`` is false. For loops without this
+        test, ``possible`` is None.
         """
-        # For a NaN, the flag ``converged`` is false, because comparisons with a NaN are false. The loop must
-        # end nevertheless, so a value that is not finite gets a status of its own.
+        # If a change is a NaN, the flag ``converged`` is never set, because comparisons with a NaN are false.
+        # The status NOT_FINITE ends the loop.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
@@ -289,7 +288,7 @@ class Stopping:
 
         If a loop for equations u = g(u) makes only one sweep, it measures no rate, and the stored rate is
         doubled. After several doublings, the rate is so large that the loop makes a second sweep and measures
-        the rate. A loop for equations r(u) = 0 stores its rate unchanged.
+        the rate. The rate of a loop for equations r(u) = 0 is never doubled.
         """
         if not self.warm:
             return []

@@ -52,7 +52,7 @@ class Hoisted:
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
-            # The arguments of a node are visited before the node, so their values of ``indexed`` are known.
+            # ``walk`` yields the arguments of a node before the node, so ``indexed`` contains the arguments.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
         # If a subexpression is independent of i and j, the loop does not visit its arguments. Only the whole
@@ -81,7 +81,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
         return space.call(str(node.payload), *args)
-    # All other operations are methods of ``space`` with the same name.
+    # For each other operation, ``space`` has a method with the same name.
     result: Expr = getattr(space, node.op)(*args)
     return result
 
@@ -97,7 +97,7 @@ class StoredMatrix(ABC):
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
-        # A coefficient is independent of i and j, so each result is a constant or a single name.
+        # A coefficient does not contain i or j. Therefore ``formula`` returns a constant or a single name.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property
@@ -126,16 +126,15 @@ class StoredMatrix(ABC):
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
-        """Return an entry of A(t): a sum of entries of constant matrices, each multiplied by a coefficient.
+        """Return an entry of a linear combination of constant matrices.
 
-        For each constant matrix C, ``entries`` contains three values: the index of the coefficient of C, the
-        entries of C, and the name of the table with these entries. The returned term uses the entry of C in
-        the row ``row`` and the column ``column``. In the table, this entry has the index ``place``.
+        The entry is in row ``row`` and column ``column``. For each constant matrix, ``entries`` contains the
+        index of its coefficient, its entries, and the name of a table. If the entries are numbers, they are
+        read from this table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The first result of ``constant_entry`` is a list of statements. The method ``before`` returns
-            # these statements.
+            # The method ``before`` returns the statements that prepare this entry.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -151,7 +150,7 @@ class StoredMatrix(ABC):
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                # If several formulas read the same index, the index is converted only once.
+                # If several formulas contain the same index, it is converted only once.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
@@ -176,7 +175,7 @@ class BandedMatrix(StoredMatrix):
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the loop that computes the linear combination of the arrays ``nodes``."""
+        """Return the loop that computes ``target``, the linear combination ``letter`` of ``nodes``."""
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -184,7 +183,7 @@ class BandedMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
-        # The subexpressions without indices are computed once, before the loops over the entries.
+        # The subexpressions that are independent of i and j are computed once, before the loops.
         named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
         about = (
             "The diagonals of h A(t), one after the other; entry i of a diagonal is in row i of the matrix."
@@ -210,8 +209,8 @@ class BandedMatrix(StoredMatrix):
         return For(_ROW, whole(self.n - abs(offset)), body)
 
     def _row_sum(self, a: Term) -> Function:
-        # If a diagonal has no entry in row i, place i of the diagonal contains zero. Therefore each row sum
-        # contains one term for each diagonal.
+        # If a diagonal has no entry in row i, its place i contains zero. Therefore all diagonals can be added
+        # without a test.
         places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
         total = size(a[places[0]])
         for place in places[1:]:
@@ -219,9 +218,8 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, this diagonal is the first one. The main diagonal has an entry in
-        # every row, so the products of these entries overwrite the old result. If there is no main diagonal,
-        # the result is set to zero before the products are added.
+        # If the matrix has a main diagonal, it is the first one. It has an entry in every row, and its
+        # products overwrite the old result. If there is no main diagonal, the result is first set to zero.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -243,14 +241,14 @@ class FullMatrix(StoredMatrix):
     Some subexpressions in the formulas of the entries are independent of i and j. The array for the time t_i
     contains the values of these subexpressions.
 
-    A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains the
-    coefficients of the matrices A(t_i), followed by the arrays for all times t_i.
+    A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains h times
+    the coefficients of the letter, followed by the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The length of an array depends on the number of names in ``hoisted``. Therefore the constructor
-        # determines all names.
+        # The lengths of the arrays depend on the number of names in ``hoisted``. Therefore all names are
+        # chosen in the constructor.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -275,11 +273,10 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that compute ``target``, the array of the linear combination ``letter``.
 
-        The array contains the coefficients of the matrices A(t_i), followed by copies of the arrays in
-        ``nodes``.
+        ``target`` contains h times the coefficients, followed by copies of the arrays in ``nodes``.
         """
         weights = dict(letter)
-        # A matrix A(t_i) that does not occur in the linear combination has the coefficient zero.
+        # If the linear combination does not contain the matrix A(t_i), its coefficient is zero.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
@@ -299,8 +296,8 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
-        # These values do not depend on h, so h is not a parameter. The coefficients of a linear combination
-        # contain the factor h.
+        # The subexpressions do not depend on h, so h is not a parameter. The method ``letter`` multiplies the
+        # coefficients by h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
@@ -339,8 +336,8 @@ class FullMatrix(StoredMatrix):
         The entry is added only if the current row and column lie on this diagonal.
         """
         # The entry in row i and column j is on the diagonal if j = i + ``offset``. Its place on the diagonal
-        # is the smaller of i and j. The indices are unsigned integers, so the test avoids a subtraction and
-        # adds |offset| to the smaller index.
+        # is the smaller of i and j. A difference of unsigned indices could be negative, so the test adds
+        # |offset| to one index.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
