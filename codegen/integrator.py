@@ -229,7 +229,7 @@ class Integrator(RunToEnd):
         end = real(end, "end")
         if times and (end - times[-1]) * (times[-1] - t) < 0:
             raise ValueError(
-                f"expected the run to end at or after {times[-1]}, the last time in t_eval, found end = {end}"
+                f"expected a run that reaches {times[-1]}, the last time in t_eval, found end = {end}"
             )
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             options = {"rtol": rtol, "atol": atol, "limit": limit, "statistics": statistics}

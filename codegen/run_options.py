@@ -23,9 +23,8 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the continuous extension of a method in the form that the printers use.
 
-    The tableau's extension has an order on vector spaces, and the method has an order on the scene. The
-    continuous extension has the smaller of these two orders. :class:`MethodError` is raised for a method
-    without an extension.
+    The order of the result is the smaller of two orders: the order of the extension on vector spaces, and
+    the order of the method on the scene. :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
 
@@ -74,9 +73,9 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if an option is requested that excludes compensated summation.
+    """Raise :class:`MethodError` if one of ``options`` is requested.
 
-    ``options`` maps the names of these options to True if the option is requested, otherwise to False.
+    ``options`` are the options that exclude compensated summation. A requested option has the value True.
     """
     for option, requested in options.items():
         if requested:
@@ -91,8 +90,8 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     """Return the description of a run to a given end time with ``events`` event functions.
 
     If ``dense`` is True, the result also contains the continuous extension of the method. ``degree`` is the
-    degree of the Taylor polynomial of a step. For a step without a Taylor polynomial it is 0. MethodError is
-    raised for a Taylor method with step-size control.
+    degree of the Taylor polynomial of a step, or 0 if a step has no Taylor polynomial. MethodError is raised
+    for a Taylor method with step control.
     """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(

@@ -41,10 +41,11 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
-        An adaptive module chooses step sizes between ``least`` and ``greatest``. Its first step size is
-        ``h``. All other modules ignore the tolerances and the bounds. They make steps of size ``h``, and only
-        the last step may be shorter. Output times and events do not change the step sizes. A terminal event
-        ends the run. By default, ``end`` is the last output time.
+        An adaptive module chooses step sizes between ``least`` and ``greatest``. The first step size is
+        ``h``. If ``h`` is 0, the module chooses it. All other modules make steps of size ``h``, but the last
+        step can be shorter. These modules ignore ``rtol``, ``atol``, ``least`` and ``greatest``. Output times
+        and events do not change the step sizes. A terminal event ends the run. By default, ``end`` is the
+        last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
         output times are not monotone, or if an output time is not between t and end. StepFailed is raised if
@@ -58,7 +59,7 @@ class RunToEnd(ABC):
         end = real(end if end is not None or not times else times[-1], "end")
         if times and (end - times[-1]) * (times[-1] - t) < 0:
             raise ValueError(
-                f"expected the run to end at or after {times[-1]}, the last time in t_eval, found end = {end}"
+                f"expected a run that reaches {times[-1]}, the last time in t_eval, found end = {end}"
             )
         bounds = tuple(
             real(x, n) for x, n in ((rtol, "rtol"), (atol, "atol"), (least, "least"), (greatest, "greatest"))

@@ -1,7 +1,7 @@
 """Find long arrays that an emitted step can pass, test and copy as a whole, instead of entry by entry.
 
-For large matrix groups, the state and the result of a product of matrices are long arrays. Without this
-module, the emitted code would list all entries of these arrays wherever they are passed, tested or assigned.
+For large matrix groups, states and products of matrices are long arrays. Without this module, emitted code
+would list all entries of such an array in each call, test and assignment.
 """
 
 from __future__ import annotations
@@ -21,10 +21,9 @@ The entries of a shorter array are scalar variables, which a compiler can keep i
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array whose entries are ``outputs``, in this order.
+    """Return the array of the results of a call, if ``outputs`` are these results.
 
-    None is returned in two cases: the outputs are not the results of one call, or there are fewer than
-    SHORTEST outputs.
+    None is returned if the outputs are not the results of one call, or if they are fewer than SHORTEST.
     """
     if len(outputs) < SHORTEST:
         return None
@@ -33,26 +32,24 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
     if results[0] is None:
         return None
     name = results[0][0]
-    # The outputs must be the results of the same call, in the same order.
+    # Output k must be result k of this call.
     if any(x != (name, k) for k, x in enumerate(results)):
         return None
     return own(name, len(outputs))
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements without long copies of parts of the array ``state``.
+    """Return the statements of ``sequence`` without long copies of parts of the array ``state``.
 
-    An ``Array`` statement is removed if it declares a copy of at least SHORTEST consecutive entries of
-    ``state``. Calls then use this part of ``state`` instead of the copy.
-    ``symbols`` contains the names of the entries of the state.
+    An ``Array`` statement is removed if it copies at least SHORTEST consecutive entries of ``state``. Calls
+    use this part of ``state`` instead of the copy. ``symbols`` are the names of the entries of ``state``.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}
     result: list[Statement] = []
     for statement in sequence:
         if isinstance(statement, Array) and len(statement.values) >= SHORTEST:
-            # ``read`` contains the index of each value in the state. A value that is not in the state has the
-            # index None.
+            # ``read`` contains the index in ``state`` for each value, or None for a value not in ``state``.
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
@@ -70,8 +67,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
     """Return the names of all variables that the statements contain."""
     names = set()
-    # Expressions share subexpressions. A single walk over all expressions visits each subexpression only
-    # once.
+    # Expressions share subexpressions. One walk over all expressions visits each subexpression once.
     values = []
     for term in terms(body):
         if term.op == "name":

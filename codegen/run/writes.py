@@ -18,7 +18,7 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
             case Call(name, arguments, results):
                 changed_names |= {root(r).text for r in results}
                 callee = unit.parts.get(name)
-                if callee is None:  # This is a library function. Only ``invert`` changes an argument.
+                if callee is None:  # Of the library functions, only ``invert`` changes an argument.
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)

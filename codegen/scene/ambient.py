@@ -1,6 +1,6 @@
-"""The ambient equation of a problem: y' = F(y) on R^n in place of the manifold.
+"""The ambient equation of a problem on a manifold: the equation y' = F(y) on R^n.
 
-Here n is the number of coordinates of the state.
+Here y contains the n coordinates of the state, and F(y) is its time derivative.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The scene gives the velocity y' by a formula of matrices. The general formula f(y).y is longer.
+            # The scene gives y' as a formula in matrices, which is shorter than the general formula below.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)
@@ -45,7 +45,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # A problem without run-time inputs may have no ``open_roots``.
+        # ``open_roots`` can be empty if the problem has no run-time inputs.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

@@ -28,8 +28,8 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` if ``action`` is not an action of ``group``, or if the points of the scene
-    have the wrong number of coordinates.
+    """Raise :class:`SceneError` if ``action`` is not an action of ``group``, or if ``reader`` has the wrong
+    number of coordinates for this action.
     """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")

@@ -6,8 +6,8 @@ force is
 
     N = tau + ad*_W P,   tau_b = -d/deps H(q exp(eps e_b), P) at eps = 0.
 
-Here e_b are the basis elements of the Lie algebra, and P does not depend on eps. The velocity xi and the
-force n in the space frame are
+Here tau is the torque, e_b are the basis elements of the Lie algebra, and P does not depend on eps. The
+velocity xi and the force n in the space frame are
 
     xi = Ad_q W,   n = Ad*_{q^-1} N.
 
@@ -36,15 +36,16 @@ if TYPE_CHECKING:
 
 DIGITS, AGREEING = 40, 30
 POINTS = 6
-"""The constants of a numerical test whether two formulas are equal. The formulas are evaluated with DIGITS
-digits at POINTS random points. At each point, AGREEING digits must agree.
+"""A numerical test compares two formulas. The formulas are evaluated with DIGITS digits at POINTS random
+points. At each point, AGREEING digits must agree.
 """
 
 
 @dataclass(frozen=True)
 class BodyField:
-    """The field in the body frame, as formulas in the coordinates of q and of the momentum P in the body
-    frame. In these formulas, the symbols of mu denote the components of P.
+    """The field in the body frame, as formulas in q and P. Here P is the momentum in the body frame.
+
+    The formulas use the symbols of the momentum mu in the space frame for the components of P.
 
     The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W is a constant
     invertible matrix times P, ``inverse`` is the inverse of this matrix, as rows of numbers. Otherwise
@@ -101,8 +102,8 @@ def field_in_body(
     """Return the velocity W and the force N in the body frame, as formulas in q and P.
 
     ``roots`` are the velocity xi and the force n in the space frame, as formulas in q and mu. The result is
-    W = Ad_{q^-1} xi and N = Ad*_q n, with P = Ad*_q mu. In these formulas, the symbols of mu denote P. The
-    field need not have a Hamiltonian. A component that does not depend on q has a formula without q.
+    W = Ad_{q^-1} xi and N = Ad*_q n, with P = Ad*_q mu. The formulas of W and N use the symbols of mu for P.
+    The field need not have a Hamiltonian. A component that does not depend on q has a formula without q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -125,8 +126,9 @@ def field_in_body(
 def _in_body(
     group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr, normal: NormalForms
 ) -> Expr:
-    """Return H(q, Ad*_{q^-1} P) as a formula in q and P. If possible, the formula is a sum V(q) + T(P) of a
-    potential energy and a kinetic energy.
+    """Return the Hamiltonian as a formula in q and the momentum P in the body frame.
+
+    If possible, the formula is a sum V(q) + T(P) of a potential energy and a kinetic energy.
     """
     space = hamiltonian.space
     domain = ExprDomain(space)
@@ -143,7 +145,7 @@ def _in_body(
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
         # The potential is singular at the neutral element, so the kinetic energy cannot be computed there.
-        # Without the kinetic energy, ``split`` differs from H, and ``moved`` is returned.
+        # If the kinetic energy is missing in ``split``, the test ``_same`` fails.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -171,7 +173,7 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The difference is multiplied by an integer, because mpmath does not compare its numbers with
+            # The test uses the integer 10**AGREEING, because mpmath does not compare its numbers with
             # fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False

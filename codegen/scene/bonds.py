@@ -37,18 +37,17 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return a pair (k, V) for each bond of a site. V is the energy of the bond. The offset from the site to
-    the other site of the bond is ``offsets[k]``.
+    """Return a pair (k, V) for each bond of a site. V is the energy of the bond, and ``offsets[k]`` is the
+    offset from the site to its neighbour.
 
-    ``y`` contains the coordinates of the site that can occur in V. In a Hamiltonian scene, ``y`` contains the
-    coordinates of q. In other scenes, ``y`` contains all coordinates.
+    V can depend on the coordinates ``y`` of the site. In a Hamiltonian scene, ``y`` contains the coordinates
+    of q. In other scenes, ``y`` contains all coordinates.
 
-    Each element of ``bonds`` gives two pairs, because the site i belongs to two bonds with the same offset.
-    The site i is the first site in the energy V(y_i, y_{i+offset}). It is the second site in the energy
-    V(y_{i-offset}, y_i).
+    Each element of ``bonds`` gives two energies of the site i. The energies are V(y_i, y_{i+offset})
+    and V(y_{i-offset}, y_i).
 
-    SceneError is raised in two cases: an energy does not contain coordinates of both sites, or an energy
-    contains coordinates of the site that are not in ``y``.
+    SceneError is raised if an energy does not contain coordinates of both sites, or if an energy contains
+    coordinates of the site that are not in ``y``.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

@@ -20,10 +20,10 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components of the force. ``slope`` contains the derivatives of the Hamiltonian H with
-    respect to the coordinates of q.
+    """Return the components of the force. ``slope`` contains the partial derivatives of the Hamiltonian H
+    with respect to the coordinates ``qs`` of q.
 
-    Component a is -d/deps H(exp(eps e_a) q) at eps = 0, where e_a is a basis element of the Lie algebra.
+    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0. Here e_a is a basis element of the Lie algebra.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

@@ -1,13 +1,13 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
-A form is a problem on R^n with a map to the state of the scene. The first form contains the equations of the
-scene in the coordinates of the scene. Another form can use the body frame, if the group has left
-translations. Its equations are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Here W is the velocity,
-P = Ad*_q mu is the momentum, and N is the force in the body frame.
+A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
+scene. If the group has left translations, another form can use the body frame. The equations in the body
+frame are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Here W is the velocity, P = Ad*_q mu is the
+momentum, and N is the force in the body frame.
 
-A further form can use a covering group, if a factor of the group has one. An element of the covering group
-has fewer coordinates. For example, a heavy top has twelve equations for a rotation matrix and the momentum.
-It has seven equations for a unit quaternion and the momentum in the body.
+If a factor of the group has a covering group, a form uses coordinates of the covering group. These are fewer
+than the coordinates of the factor. For example, a heavy top has twelve equations for a rotation matrix and
+the momentum. With a unit quaternion and the momentum in the body frame, the top has seven equations.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class ClassicalForm:
     A *state of the form* is a vector of coordinates on this R^n.
 
     - ``to_scene``: formulas that compute the state of the scene from the state of the form.
-    - ``from_scene``: formulas that compute the state of the form from the state of the scene. They hold near
-      the initial state of the scene.
+    - ``from_scene``: formulas that compute the state of the form from a state of the scene that is near the
+      initial state.
     - ``state``: a text that describes the coordinates on R^n.
     - ``conversion``: a text that describes the map to the state of the scene.
     """
@@ -67,16 +67,16 @@ class ClassicalForm:
         return tuple(evaluate(self.to_scene, domain, self.problem.values(domain, tuple(state))))
 
     def form_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the state of the form. ``state`` is a state of the scene near the initial state."""
+        """Return the state of the form, computed from a state of the scene near the initial state."""
         return tuple(evaluate(self.from_scene, domain, self.scene.values(domain, tuple(state))))
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the classical forms of a scene. The first form contains the equations of the scene. Each other
+    """Return the classical forms of a scene. The first form uses the coordinates of the scene. Each later
     form uses the body frame, coordinates of covering groups, or both.
 
-    Each of these other forms uses the frame in which its equations need fewer operations. If the inertia is
-    fixed in the body, this is the body frame. If the inertia is fixed in space, this is the space frame.
+    A later form uses the frame in which its equations need fewer operations. The body frame is chosen if the
+    inertia is fixed in the body. The space frame is chosen if the inertia is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -113,15 +113,14 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define classical forms.
 
-    If the equations need fewer operations in the body frame than in the space frame, the change to the body
-    frame is yielded. If a factor of the group has a covering group, the change to coordinates of covering
-    groups is yielded.
+    One change leads to the body frame, if the equations need fewer operations there than in the space frame.
+    Another change leads to coordinates of covering groups, if a factor of the group has a covering group.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # In all other cases, the equations of the form would be the same as those of an earlier form.
+        # In all other cases, the form would have the equations of an earlier form.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -132,8 +131,8 @@ class _Leaf:
 
     ``symbols`` are the coordinates of the factor in the scene. ``own`` are the coordinates of the factor in
     the classical form. ``at`` is the index of the first component of the factor in a vector of the Lie
-    algebra. If ``own`` are coordinates of a covering group, ``cover`` is the group with its covering map.
-    Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
+    algebra. If ``own`` are coordinates of a covering group, ``cover`` contains this group and its
+    covering map. Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
     """
 
     group: LieGroup
@@ -148,14 +147,14 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element in the right-hand sides of the equations, as a formula in ``own``."""
+        """Return the element of the factor as a formula in ``own``, for the right-hand sides of equations."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element in the state of the scene, as a formula in ``own``.
+        """Return the element of the factor as a formula in ``own``, for the state of the scene.
 
-        Numerical errors can move the coordinates of a covering group off this group. The formula projects the
-        coordinates onto the covering group, so that the result is an element of the group.
+        Numerical errors can move the coordinates off a covering group. The formula first projects the
+        coordinates onto the covering group. Therefore, the result is an element of the factor.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -172,8 +171,8 @@ class _Leaf:
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
         """Return formulas for the coordinates ``own`` in the symbols of the scene.
 
-        ``initial`` contains the coordinates of the factor in the initial state. The formulas hold near this
-        point.
+        ``initial`` contains the coordinates of the factor in the initial state. The formulas hold near
+        ``initial``.
         """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
@@ -261,7 +260,7 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The invariants are formulas in the symbols of the scene. These symbols are replaced by ``to_scene``.
+        # In the invariants, the formulas of ``to_scene`` replace the symbols of the scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -325,7 +324,7 @@ class _Change:
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:
-        """Return True if the velocity of a factor of the group is expressed in the body frame."""
+        """Return True if the velocity of the factor ``leaf`` is expressed in the body frame."""
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
@@ -342,8 +341,8 @@ class _Change:
     def rates(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the time derivatives of the coordinates of the classical form.
 
-        ``roots`` are the components of the field of the scene: f for a field scene, or xi and n for a
-        Hamiltonian scene.
+        ``roots`` are the components of the field of the scene: the velocity and, in a Hamiltonian scene, the
+        force.
         """
         problem, d = self.problem, self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.element(d, own))
@@ -363,7 +362,7 @@ class _Change:
     def field(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the field in the frame of the classical form, as formulas in the symbols of the scene.
 
-        In the body frame, the symbols of the momentum mu denote the momentum P.
+        In the body frame, the symbols of the momentum mu denote the momentum P = Ad*_q mu.
         """
         problem = self.problem
         if not self.body:
@@ -377,7 +376,7 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in the body frame.
+        """Return the velocity of the factor ``leaf`` in the body frame. ``roots`` are in the space frame.
 
         If the factor has no left translations, return the velocity in the space frame.
         """

@@ -222,7 +222,7 @@ def test_times_that_are_no_times_have_a_message(times: Any, message: str) -> Non
         ({"end": 1, "limit": -1}, "expected limit to be at least 0, found -1"),
         ({"end": 1, "limit": 1e5}, "expected an integer for limit"),
         ({"end": 1, "rtol": np.array([1e-3] * 3)}, "expected a real number for rtol"),
-        ({"end": 0.5, "t_eval": [0, 1]}, "to end at or after 1.0, the last time in t_eval, found end = 0.5"),
+        ({"end": 0.5, "t_eval": [0, 1]}, "a run that reaches 1.0, the last time in t_eval, found end = 0.5"),
     ],
 )
 def test_wrong_arguments_of_an_adaptive_run_have_a_message(target: str, options: Any, message: str) -> None:
