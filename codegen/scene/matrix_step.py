@@ -1,11 +1,12 @@
 """Methods y1 = M y0 for the equation y' = A(t) y. The scene defines the matrix M by a formula.
 
 The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY` and matrices A(t + c h),
-where c is a number (:func:`A`). They are combined by sums, products and the functions :func:`bracket`,
-:func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the Lie algebra, an
-element of the group, or another matrix. The group computes the exponential of an algebra element. All other
-exponentials and all logarithms need a closed form. The closed forms exist only for 2 x 2 matrices. If a
-formula for larger matrices needs a closed form, the formula is rejected.
+where c is a number (:func:`A`). Sums, products and the functions :func:`bracket`, :func:`projected`,
+:func:`expm` and :func:`logm` combine these matrices. The type of a formula (:class:`Place`) is a set that
+contains the values of the formula: the Lie algebra, the group, or all square matrices. The group computes the
+exponential of an algebra element. All other exponentials and all logarithms need a closed form. The closed
+forms exist only for 2 x 2 matrices. If a formula for larger matrices needs a closed form, the formula is
+rejected.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -52,7 +53,7 @@ class Evaluation(Generic[S]):
 
 @dataclass(frozen=True)
 class Scalar:
-    """The scalar ``value`` times h to the power ``power``, where h is the step size."""
+    """The scalar a h^k, where a is ``value``, k is ``power``, and h is the step size."""
 
     value: Fraction
     power: int
@@ -66,11 +67,11 @@ class Scalar:
         return replace(self, value=self.value / number)
 
     def __pow__(self, n: int) -> Scalar:
-        """Return the power with a natural exponent."""
+        """Return the n-th power of the scalar, for n >= 0."""
         return Scalar(self.value**n, self.power * n)
 
     def text(self) -> str:
-        """Return the scalar as a text, for example ``1/2 h^2``."""
+        """Return the scalar as text, for example ``1/2 h^2``."""
         power = "" if not self.power else "h" if self.power == 1 else f"h^{self.power}"
         number = "" if self.value == 1 and power else str(self.value)
         return " ".join(filter(None, (number, power)))
@@ -255,7 +256,7 @@ class Multiple(MatrixFormula):
         return Place.ALGEBRA if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return a tuple that contains only the matrix."""
+        """Return a tuple with one entry: the formula of the matrix."""
         return (self.of,)
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -310,7 +311,7 @@ class Exponential(Unary):
     def closed_forms(self) -> Iterator[MatrixFormula]:
         """Yield the exponentials and logarithms in this formula that are computed by closed forms.
 
-        If the type of the argument is ALGEBRA, the group computes this exponential without a closed form.
+        The exponential of an algebra element needs no closed form, because the group computes it.
         """
         if self.of.place is not Place.ALGEBRA:
             yield self
@@ -399,8 +400,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
-    For n x n matrices the result has n^2 rows and columns. The projection multiplies this result by the
-    vector of the n^2 entries of a matrix, listed row by row.
+    For n x n matrices the result has n^2 rows and n^2 columns. It is multiplied by the vector of the n^2
+    entries of a matrix, listed row by row. The product contains the entries of the projected matrix.
     """
     from sympy import Matrix, Rational
 
@@ -435,7 +436,8 @@ def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
 def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     """Return the logarithm of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    The result is log(det m)/2 I + g N. The number g depends on s, z = det N and r = sqrt(|z|):
+    The result is (1/2 log(det m)) I + g N, where I is the unit matrix. The number g
+    depends on s, z = det N and r = sqrt(|z|):
 
     - If z > 0, g = atan2(r, s)/r.
     - If z = 0, g = 1/s.
@@ -444,8 +446,8 @@ def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)
     r = d.call("sqrt", d.call("fabs", z))
-    # ``choose`` evaluates both alternatives. The logarithms are used only for z <= 0. For z > 0 their
-    # arguments are 1, because s + r or s - r may be negative.
+    # ``choose`` evaluates both alternatives. If z > 0, the logarithms are not used, but s + r or s - r may be
+    # negative. The argument 1 prevents the logarithm of a negative number.
     above, below = (d.call("log", d.call("choose", z, one, x)) for x in (s + r, s - r))
     angle = d.call("choose", z, d.call("atan2", r, s), half * (above - below))
     g = d.call("choose", r, d.call("quotient", angle, r), d.call("quotient", one, s))

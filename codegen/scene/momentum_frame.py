@@ -21,8 +21,9 @@ def with_frame(problem: Problem, frame: str) -> Problem:
     """Return the problem with a frame in which emitted code accepts and returns momenta.
 
     The frame ``space`` means the right-trivialised momentum mu. The frame ``body`` means the left-trivialised
-    momentum Ad*_q mu. Inside a step, emitted code always computes with mu. The frame ``body`` needs a problem
-    with momenta on a group that is not abelian. :class:`SceneError` is raised for any other problem.
+    momentum Ad*_q mu at the configuration q. Inside a step, emitted code may use the other frame. The frame
+    ``body`` needs a Hamiltonian problem on a group that is not abelian. Otherwise :class:`SceneError` is
+    raised.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))
@@ -36,7 +37,7 @@ def with_frame(problem: Problem, frame: str) -> Problem:
 
 
 def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state, with the momentum in the frame of emitted code."""
+    """Return the initial state, with the momentum in the frame that emitted code uses."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
     if scene.body_group is None:

@@ -16,8 +16,8 @@ from codegen.groups.capabilities import BodyFrame, CayleyMap, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
-"""A function that computes an operation. Its arguments are the group, the number domain and the arguments of
-the operation. If the operation truncates a series, the last argument is the truncation order."""
+"""A function that computes an operation of a group. It receives the group, the number domain and the
+arguments of the operation. If the operation truncates a series, the last argument is the truncation order."""
 
 ON_GROUP: Mapping[str, GroupOperation] = {
     "identity": lambda group, d: group.identity(d),

@@ -1,8 +1,8 @@
 """Comparison of formulas at sample points on the orbit of the initial state under the group.
 
-States on the orbit satisfy equations such as g^T g = 1. Therefore two formulas may be equal on the orbit,
-although they differ for other values of the coordinates. Each sample point has a time in the time span of the
-problem. The computations use 40 digits.
+Two formulas may be equal on the orbit but different outside the orbit. For example, g^T g = 1 is true only
+for orthogonal matrices g. Each sample point has a time in the time span of the problem. The computations use
+40 digits.
 """
 
 from __future__ import annotations
@@ -33,8 +33,9 @@ unit roundoff, because cancellation may increase the rounding errors of the term
 """
 
 FLOOR = Fraction(1, 10**28)
-"""The absolute tolerance of the test whether a sum is zero. A small difference of nearly equal numbers may
-have a large relative error. If all terms are such differences, TOLERANCE is not sufficient."""
+"""The absolute tolerance of the test whether a sum is zero. A term may be a small
+difference of nearly equal numbers. The rounding error of this difference may be larger than TOLERANCE times
+the term."""
 
 POINTS = 4
 """The largest number of sample points: the initial state, and three random points of its orbit."""
@@ -44,8 +45,8 @@ POINTS = 4
 class Orbit:
     """A problem y' = f(y).y, and sample points on the orbit of its initial state.
 
-    ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f. A
-    Hamiltonian problem is written as an equation on the group T*G, which acts on itself by multiplication.
+    ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
+    For a Hamiltonian problem, y is (q, mu), and the group T*G acts on itself by left multiplication.
     """
 
     name: str
@@ -100,7 +101,7 @@ class Orbit:
         return start
 
     def values(self, roots: Sequence[Expr], values: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...] | None:
-        """Return the values of formulas at a point, or None if a formula cannot be evaluated."""
+        """Return the values of the formulas ``roots``, or None if one of them cannot be evaluated."""
         try:
             return tuple(evaluate(roots, self.domain, values))
         except (ArithmeticError, ValueError):

@@ -1,7 +1,7 @@
 """Two tests of the orbit of the initial state: Is the orbit open? Does the action project onto the orbit?
 
 The projection is :meth:`Action.to_orbit`. If the action has no formula for a projection, ``to_orbit`` returns
-the point unchanged. For an open orbit this is correct, because all points near a point of the orbit are on
+the point unchanged. An open orbit needs no projection, because all points near a point of the orbit are on
 the orbit. If the orbit is not open, a numerical method that needs the projection leaves the orbit.
 """
 
@@ -17,18 +17,18 @@ DISPLACEMENT = 1e-4
 """The distance from the initial state to the points that the test :func:`reaches_orbit` projects."""
 
 REDUCED = 1e-2
-"""The largest allowed ratio of the perpendicular displacement after a projection to the displacement before.
+"""The tolerance of the test :func:`reaches_orbit`.
 
-The test :func:`reaches_orbit` displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and
-projects the displaced point. Near the initial state, the orbit deviates from its tangent space by only about
-DISPLACEMENT^2. The test allows a perpendicular displacement of REDUCED * DISPLACEMENT.
+The test displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and projects the displaced
+point. After the projection, the perpendicular displacement must be at most REDUCED * DISPLACEMENT. It need
+not be zero, because the orbit may deviate from its tangent space by about DISPLACEMENT^2.
 """
 
 INDEPENDENT = 1e-8
 """The tolerance of the test whether a vector is a linear combination of given vectors.
 
-The length of the part that is perpendicular to the given vectors must be at most INDEPENDENT times the length
-of the vector. If the vector is shorter than 1, the bound is INDEPENDENT.
+A vector v passes the test if its component perpendicular to the given vectors has at most the length
+INDEPENDENT * max(1, |v|).
 """
 
 
@@ -72,9 +72,9 @@ def _tangent(field: Problem, start: tuple[float, ...]) -> list[list[float]]:
 def _orthonormal(
     vectors: Sequence[Sequence[float]], known: Sequence[Sequence[float]] = ()
 ) -> list[list[float]]:
-    """Extend the orthonormal vectors ``known`` to an orthonormal basis of the span of all given vectors.
+    """Return vectors that extend ``known`` to an orthonormal basis of the span of ``known`` and ``vectors``.
 
-    The result contains only the new basis vectors.
+    The vectors ``known`` must be orthonormal.
     """
     basis: list[list[float]] = []
     for vector in vectors:

@@ -57,8 +57,9 @@ def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
     A float denotes the decimal number that Python prints for it: 0.1 is 1/10. Emitted code contains the
-    default as a constant. A parameter may also be requested as a run-time argument of emitted code.
-    :class:`SceneError` is raised for a default that is not rational.
+    default as a constant. With the option ``emit --parameter NAME``, the parameter is an argument of emitted
+    code instead. :class:`SceneError` is raised if the default is not rational, or too large or too
+    small for a normal double.
     """
     value = exact(default)
     if value is None:

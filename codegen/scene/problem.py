@@ -1,11 +1,11 @@
 """Problems: the internal form of scenes, which the interpreter and the compiler use.
 
-The sympy formulas of a scene are converted once to exact expressions that share equal subexpressions.
-Derivatives are computed by reverse differentiation. The formulas can be evaluated in several number domains,
-such as floats, series or expressions.
+The sympy formulas of a scene are converted to exact expressions that share equal subexpressions. Derivatives
+are computed by reverse differentiation. The expressions can be evaluated in several number domains, such as
+floats, series or expressions.
 
-A step program is the list of operations of one step of a method. A problem computes the operations that
-depend on the group, the action or the equation.
+A step program is the list of operations of one step of a method. Some operations depend on the group, the
+action or the equation. The problem computes these operations (:meth:`Problem.apply`).
 """
 
 from __future__ import annotations
@@ -71,18 +71,17 @@ class Problem:
     """The internal form of a scene: a group, an action, a state, and a field or a Hamiltonian.
 
     The equation of a field scene is y' = f(y).y. The equations of a Hamiltonian scene are q' = xi.q and
-    mu' = n - ad*_xi mu.
+    mu' = n - ad*_xi mu, where xi is the velocity in the Lie algebra, and n is the force in its dual space.
 
     - ``roots``: the components of f, or of xi and n, as expressions in the coordinates, the parameters and
       ``t``. Large matrices and semilinear equations have no ``roots``.
     - ``paired``: True if the state is (q, mu).
-    - ``parts``: named summands of the Hamiltonian.
+    - ``parts``: summands of the Hamiltonian, by name.
     - ``flows``: the exact flow of each part. Splitting methods compose these flows.
-    - ``stated``: formulas for (q, mu) after the time tau, for each part whose flow the scene gives by
-      formulas.
+    - ``stated``: for some parts, formulas of the scene for (q, mu) after the time tau along the flow.
     - ``runtime``: the parameters that are arguments of emitted code.
     - ``fixed``: the names and values of parameters with a new value in place of the default.
-    - ``open_roots``: ``roots``, where each signal is a symbol and not replaced by its formula.
+    - ``open_roots``: the expressions of ``roots`` before the signals are replaced by their formulas.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group if emitted code uses momenta in the body frame, otherwise None.
@@ -90,8 +89,8 @@ class Problem:
     - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
     - ``matrices``: the field as formulas of matrices, or None (:mod:`codegen.scene.matrix_formula`).
-    - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
-      conjugate to the time (:mod:`codegen.scene.linear_extension`).
+    - ``carries_momentum``: True if the momentum conjugate to the time was added to a linear problem as the
+      last coordinate (:mod:`codegen.scene.linear_extension`).
     - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
     - ``sites``: the lattice, if the problem is the equation of one site (:mod:`codegen.scene.sites`). Then
       ``roots`` also contain the coordinates of neighbours.
@@ -140,7 +139,8 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        If a lattice has an open boundary, the states outside must not depend on the time either.
+        If a lattice has an open boundary, the given states outside the lattice must not depend on the time
+        either.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
@@ -156,8 +156,8 @@ class Problem:
 
         On a lattice, the field of a site must not depend on the states of neighbours either.
         """
-        # If the field is given by formulas of matrices, ``roots`` may be empty. The test in the last line
-        # cannot be used, because it is true for empty ``roots``.
+        # If formulas of matrices define the field, ``roots`` may be empty. A test of empty ``roots`` would
+        # always return True.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -167,11 +167,7 @@ class Problem:
 
     @property
     def is_hamiltonian(self) -> bool:
-        """True if the state is (q, mu).
-
-        For this state, the operation ``hamilton`` computes the pair (xi, n) of the equations q' = xi.q and
-        mu' = n - ad*_xi mu.
-        """
+        """True if the state is (q, mu)."""
         return self.paired
 
     def dimension(self) -> int:
@@ -192,18 +188,19 @@ class Problem:
             )
         if not self.roots:
             raise SceneError(
-                f"a field without formulas in coordinates, because {self.group.name} has too many "
-                f"coordinates ({self.group.dim})",
+                f"a field without formulas in coordinates, because the dimension {self.group.dim} of "
+                f"{self.group.name} is too large",
                 where=self.name,
                 expected="a scene with formulas in coordinates, that is, a matrix with at most eight rows",
-                hint='use a smaller matrix; the commands "emit" and "converge" work for every number of rows',
+                hint='use a smaller matrix; the commands "emit" and "converge" work for every matrix size',
             )
 
     def as_field(self) -> Problem:
         """Return a Hamiltonian problem as an equation y' = f(y).y, where y = (q, mu) and f = (xi, n).
 
-        The group of the result is T*G, which acts on itself by left multiplication. If the state is not
-        (q, mu), the problem is returned unchanged.
+        The equations of the problem are q' = xi.q and mu' = n - ad*_xi mu. The group of the result is T*G,
+        which acts on itself by left multiplication. If the state is not (q, mu), the problem is returned
+        unchanged.
         """
         if not self.paired:
             return self
@@ -268,24 +265,25 @@ class Problem:
         return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the exact flow of a part for the time tau.
+        """Return (q, mu) after the time tau along the exact flow of a summand of the Hamiltonian.
 
-        ``args`` are q and mu, followed by t if the part depends on t.
+        ``part`` is the name of the summand. ``args`` are the initial q and mu, followed by t if the summand
+        depends on t.
         """
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return W(ad_x) v, where W is the product of the functions in ``word``.
+        """Return W(ad_x) v, where W is the product of the functions of one variable in ``word``.
 
-        If ``dual`` is true, ad*_x replaces ad_x.
+        If ``dual`` is true, return W(ad*_x) v.
         """
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property
     def has_body(self) -> bool:
-        """True if the field has formulas in the body frame of the group."""
+        """True if the problem has formulas for the field in the body frame."""
         return self.body is not None
 
     @cached_property
@@ -297,7 +295,7 @@ class Problem:
         - The problem has no Hamiltonian.
         - The group has no body frame.
         - Emitted code reads signals at run time.
-        - A force is not a derivative of the Hamiltonian.
+        - The equations contain a force that is not a derivative of the Hamiltonian.
         """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
@@ -319,14 +317,14 @@ class Problem:
         If the state is (q, mu), the equations are q' = xi.q and mu' = n - ad*_xi mu, and the field is the
         pair (xi, n). Otherwise the equation is y' = f(y).y, and the field is f.
 
-        ``args`` contains the blocks of the state, and possibly the time as the last entry.
+        ``args`` contains the blocks of the state. The time may follow as the last entry. Its default is 0.
         """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # In the formulas of emitted code, the signals in ``inputs`` are symbols. The caller of the code
-            # passes the values of these signals at the stage times.
+            # The caller of emitted code passes the values of the signals in ``inputs`` at the stage times.
+            # Therefore these signals stay symbols.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])
@@ -335,7 +333,7 @@ class Problem:
         return (result[: self.group.dim], result[self.group.dim :]) if self.paired else (result,)
 
     def stated_step(self, domain: Domain, name: str, y: Vector[S], t: S) -> Vector[S]:
-        """Return the state after one step from y, for a method of the scene (:attr:`steps`)."""
+        """Return the state after one step of the method ``name`` in :attr:`steps`, from y at the time t."""
         from codegen.scene.matrix_step import Evaluation
 
         product = self.group.offers(DirectProduct) if self.carries_momentum else None
@@ -371,9 +369,9 @@ class Problem:
         return tuple(evaluate(roots, domain, values))
 
     def invariant(self, domain: Domain, name: str, state: Sequence[S], t: S | None = None) -> S:
-        """Return the value of a declared invariant at a state and a time.
+        """Return the value of the invariant ``name`` at a state and a time.
 
-        If the problem has a Hamiltonian, the invariant ``energy`` is the Hamiltonian.
+        The default of t is 0. If the problem has a Hamiltonian, the invariant ``energy`` is the Hamiltonian.
         """
         value: S = evaluate([self.invariants[name]], domain, self.values(domain, state, t))[0]
         return value
