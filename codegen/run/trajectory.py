@@ -1,8 +1,7 @@
 """The public functions for a single step and for a run of equal steps, which can store a trajectory.
 
-A run ends after the last step, or earlier if a step fails. In this case the caller gets the state before
-the failed step. The first row of the trajectory is the initial state. After every ``stride`` steps, the run
-adds one row.
+If a step fails, the run ends, and the caller gets the state before the failed step. The first row of the
+trajectory is the initial state. After every ``stride`` steps, the run adds one row.
 
 A small explicit kernel is inlined in the loop of the run, so that the state remains in registers.
 """
@@ -47,9 +46,9 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 """The functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The largest number of components of the state for which the kernel is inlined in a run.
+"""The largest size of a state for which the kernel is inlined in the loop of a run.
 
-With more components, the state and the intermediate values of a step do not fit into the registers.
+A larger state and the intermediate values of a step do not fit into the registers of the processor.
 """
 
 DONE = count("step")
@@ -58,8 +57,7 @@ DONE = count("step")
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 LOOP = "loop"
-"""The name of the emitted function that contains the loop over the steps of a run, with the kernel
-inlined."""
+"""The name of the emitted function with the loop of a run. The kernel is inlined in this loop."""
 
 
 def is_looped(plan: Plan) -> bool:
@@ -77,8 +75,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if Python may raise an exception where C computes an infinity or a NaN."""
-    # Emitted Python code catches exceptions in the function of the kernel. A kernel that may raise an
-    # exception therefore keeps its own function.
+    # In Python, the function that contains the kernel catches exceptions. Therefore a kernel that may raise
+    # an exception is not inlined.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -92,14 +90,14 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The optional array of the caller. Each row is for one state of the trajectory."""
+        """The array of the caller for the trajectory, with one state in each row. The array is optional."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # If the caller has passed a stride and an array, states are recorded. The stride and the array
-            # are tested before the loop. The loop tests only the flag ``recording``.
+            # States are recorded if the caller passes a stride and an array. Both are tested before the loop,
+            # so that the loop tests only the flag ``recording``.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -107,25 +105,25 @@ class Rows:
 
     def due(self, step: Term = DONE) -> Term:
         """Return the test whether the state after ``step`` steps is written to the trajectory."""
-        # The flag is tested first. If it is true, the stride is not zero, and the remainder is defined.
+        # ``recording`` is tested first. If it is true, the stride is positive, and the remainder is defined.
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write the next row."""
         return [
-            # The row index is increased by 1. This avoids a division by the stride.
+            # The rows are counted, because a row index from the step number would need a division.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
 
 
 def own_memory(plan: Plan) -> list[Statement]:
-    """Return a list with the statement that creates the memory of a run.
+    """Return a list with the statement that creates the memory of a step or a run.
 
     A step stores data for the next step in this memory. If steps store nothing, the list is empty.
     """
-    # The memory is local to a run. The result of a run therefore depends only on its arguments, and several
-    # threads can make runs at the same time.
+    # The memory is a local variable of the emitted function. Several threads can therefore call the function
+    # at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
@@ -144,9 +142,9 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
     """Return the statements that make one step from ``state`` and set the status.
 
     If the kernel has a warm start, a failed step is repeated by continuation in h. If a step has substeps,
-    the continuation is applied to each substep, inside the emitted function.
+    the emitted function for the step repeats a failed substep.
     """
-    # A run with steps of constant size needs no error estimate. The array for the estimate is omitted.
+    # Steps of constant size need no error estimate, so no array is passed for the estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
@@ -160,13 +158,13 @@ def step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # If the kernel is inlined in the run, the function of a step calls a run of one step. A second copy
-        # of the kernel would make the emitted code longer.
+        # The kernel is inlined in ``run``. ``step`` calls ``run`` for one step, because a second copy of the
+        # kernel would make the emitted code longer.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
-    # If the kernel uses the momentum in the body frame, ENTER converts the momentum before the step. LEAVE
-    # converts it back to the space frame.
+    # If the kernel uses the body momentum, ENTER converts the state to the body frame before the step. After
+    # the step, LEAVE converts the state to the space frame.
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
     if carried:
@@ -197,8 +195,8 @@ def looped_runs(plan: Plan) -> tuple[Function, ...]:
     The first function contains the loop over the steps. The second function finds the cause of a failure. The
     third function is public.
     """
-    # The public function and the function ``cause`` both call the loop, so it is a separate function.
-    loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
+    # The loop is a separate function, because both ``run`` and ``cause`` call it.
+    loop = replace(run(plan), name=LOOP, about="The loop over the steps of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
     body = (Call(LOOP, parameters, (STATUS,)), *searched(plan, plan.state()), Return(STATUS))
@@ -221,9 +219,9 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # During the run, ``state`` is the initial state in the space frame, and ``moving`` is the current
-            # state in the body frame. ``rows.add`` copies ``state`` to the row. LEAVE then updates the row to
-            # the current state in the space frame.
+            # ``state`` remains the initial state, and ``moving`` is the current state in the body frame.
+            # LEAVE adds the increase of the momentum to the initial momentum. Therefore ``rows.add`` first
+            # copies ``state`` to the row.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
@@ -233,8 +231,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # If the momentum overflows in the space frame, LEAVE fails and does not change ``state``. The caller
-        # gets the initial state, so the number of completed steps is set to zero.
+        # If the momentum overflows in the space frame, LEAVE fails. ``state`` remains the initial state, so
+        # the number of completed steps is set to zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -253,12 +251,12 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The variables ``new`` contain the new state. The kernel may read only some entries of the old state. A
-    # NaN in an ``unread`` entry would not appear in the new state, so these entries are tested, too.
+    # The new state is tested for NaN. A NaN in an entry that the kernel does not read would not appear in the
+    # new state. Therefore the ``unread`` entries are tested, too.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
-    # The new state is in separate variables, so its values can be copied in any order.
+    # The new state is in separate variables, so the order of the assignments does not matter.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [
@@ -269,8 +267,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop changes local copies of the state, which remain in registers. The array ``state`` would be
-        # stored to memory in each step, because the array of the trajectory may overlap it.
+        # The loop changes local copies of the state, which remain in registers. The compiler cannot exclude
+        # that the trajectory overlaps ``state``, so it would store ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

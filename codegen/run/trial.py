@@ -1,7 +1,7 @@
 """Trials of solvers: a kernel makes a few steps from the initial state, and sweeps and matrices are counted.
 
-Python executes the statements of the emitted code (:mod:`codegen.run.execute`). A trial therefore needs the
-same numbers of sweeps and matrices as the emitted code.
+Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore the numbers of
+sweeps and matrices are the same as in the emitted code.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ PARTS = 100
 class Trial:
     """The results of a trial that makes ``steps`` steps of size ``h``.
 
-    ``sweeps`` and ``matrices`` have one entry for each block of equations. The entries are the average
-    numbers of sweeps and of computed matrices in a step. ``most`` is the largest number of sweeps over one
-    block. If the step has substeps, it is the largest number in one substep. ``converged`` is True if all
-    steps succeeded.
+    For each block of equations, ``sweeps`` contains the average number of sweeps in a step. ``matrices``
+    contains the average number of Newton matrices that are computed in a step. ``most`` is the largest number
+    of sweeps over one block in one step (or in one substep, if the step has substeps). If all steps
+    succeeded, ``converged`` is True.
     """
 
     steps: int
@@ -44,21 +44,21 @@ class Trials:
     """Makes the trials of one kernel.
 
     If a step with a warm start fails, it is repeated once, without the solutions of earlier steps. If
-    ``continuation`` is True, a second failure starts the continuation in h of the emitted code
+    ``continuation`` is True and the step fails again, it is repeated by continuation in h
     (:mod:`codegen.run.continuation`).
     """
 
     def __init__(
         self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
     ) -> None:
-        # The trial needs no error estimates, derivatives or runs to an end time. They do not change the
-        # number of sweeps.
+        # Error estimates, derivatives and integrations to an end time do not change the number of sweeps, so
+        # a trial omits them.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
-        # Trials always compute in doubles, because the choice of a solver should not depend on the precision
-        # of the emitted code.
+        # The results of trials determine the solver. Trials use doubles, so that the solver does not
+        # depend on the precision of the emitted code.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
-        # ``EmittedFloats`` rounds Stumpff functions as the emitted code does. A different last bit could
-        # cause one more sweep.
+        # ``EmittedFloats`` rounds Stumpff functions as the emitted code does. A different rounding could
+        # change the number of sweeps.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
@@ -75,13 +75,13 @@ class Trials:
         time = [float(first)] if self.plan.time else []
         # The user chooses the run-time inputs later. In a trial they are zero.
         signals = [lambda t: (0.0,) * number] if number else []
-        # The step size is computed with exact rationals and rounded once, as in the emitted example.
+        # The quotient is exact and is rounded once, as in the emitted example.
         h = float(longer * (last - first) / PARTS)
-        # No trajectory is stored, because only the counts are needed.
+        # No trajectory is stored. A trial needs only the numbers of sweeps and matrices.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # ``counts.matrices`` is the sum over all blocks with Newton's method. Each of these blocks gets an
-        # equal share.
+        # ``counts.matrices`` is the total of all blocks with Newton's method. The number of each block is
+        # unknown, so the total is divided equally.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

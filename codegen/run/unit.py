@@ -34,7 +34,7 @@ def unit_of(plan: Plan) -> Unit:
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
         step = plan.kernel.sites
-        # If a lattice step is a composition of flows, its functions come from :mod:`codegen.run.site_flows`.
+        # If the step is a composition of flows, :mod:`codegen.run.site_flows` builds the functions.
         of_sites = site_flows.functions if step.flows else sites.functions
         listed = of_sites(plan, step)
         # The functions for matrix exponentials and inverses come before the functions that call them.
@@ -42,7 +42,7 @@ def unit_of(plan: Plan) -> Unit:
         listed = [*matrix_functions(vectors, plan.format), *listed]
         return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
-    # If a run defers flows to later steps, other functions make the step and the run.
+    # If the kernel has deferred flows, :mod:`codegen.run.deferred_flows` builds the steps and runs.
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
@@ -50,7 +50,7 @@ def unit_of(plan: Plan) -> Unit:
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
     functions += integration.functions(plan)
     functions += batch.functions(plan)
-    # The names t and h are always in the list, so that no other variable is called t or h.
+    # The names t and h are reserved, even if the kernel does not use them.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     # The functions for matrix exponentials and inverses are added only if other functions call them.
     vectors = used(functions)
@@ -66,8 +66,7 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # If the kernel is inlined in ``run``, ``step`` calls ``run``. Otherwise ``step`` and ``run`` call the
-    # function that contains the kernel.
+    # If the kernel is inlined in a run, ``step`` calls ``run``. Therefore ``step`` comes last.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if plan.kernel.arrays is not None:
@@ -76,8 +75,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The function ``continued`` repeats a failed step. It calls the function of the kernel. Steps and
-        # runs call ``continued``.
+        # The function ``continued`` repeats a failed step. It calls the function that contains the kernel, so
+        # it comes after this function.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
@@ -85,7 +84,7 @@ def _steps(plan: Plan) -> list[Function]:
 
 
 def _array_functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a step that uses matrices. These functions contain loops over arrays."""
+    """Return the functions of a step that is computed by loops over arrays."""
     arrays = plan.kernel.arrays
     assert arrays is not None
     if isinstance(arrays, LinearArrayStep):
@@ -94,9 +93,10 @@ def _array_functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _causes(plan: Plan) -> list[Function]:
-    """Return a list with the function that finds the cause of a failure.
+    """Return a list with the function that finds the cause of a failed step.
 
-    If the kernel has a warm start or run-time inputs, the list is empty.
+    If the kernel has a warm start or run-time inputs, the list is empty (reasons:
+    :func:`codegen.run.cause.is_searched`).
     """
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 

@@ -28,7 +28,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return two functions: the first squares a matrix, and the second computes the exponential of a matrix.
+    """Return the function that squares a matrix, and the function for the exponential of a matrix in su(3).
 
     ``coefficient`` is the table of the numbers 1/k!.
     """
@@ -36,10 +36,10 @@ def unitary_functions(
 
 
 def _exponential(function: SpecialUnitaryExponential, precision: Precision, coefficient: Term) -> Function:
-    """Return the function that computes the exponential of a matrix."""
+    """Return the function that computes the exponential of a matrix in su(3)."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
-    # ``least`` is the largest norm for which the polynomial of the highest degree is accurate.
+    # If the norm is larger than ``least``, even the polynomial of the highest degree is inaccurate.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),
@@ -72,10 +72,10 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         ),
     )
     about = (
-        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a. A "
+        "result = exp(X), where X is the traceless skew-Hermitian 3 x 3 matrix with the coordinates a. A "
         "Taylor polynomial is evaluated modulo the characteristic polynomial, and its value is squared "
-        "repeatedly. The real parts of the entries come first. All results are NaN if the bound of the "
-        f"relative error exceeds 2^-{LEAST_DIGITS}."
+        "repeatedly. The real parts of all entries of exp(X) come first. If the bound of the relative "
+        f"error exceeds 2^-{LEAST_DIGITS}, all results are NaN."
     )
     return Function(function.name, about, (a, result), body)
 
@@ -91,9 +91,8 @@ def _polynomial(
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
-    # The coefficients are complex numbers, but Horner's rule multiplies them by real numbers only. Therefore
-    # their real parts ``even`` and imaginary parts ``odd`` are computed separately. The real parts come from
-    # the even powers of i.
+    # Horner's rule multiplies the complex coefficients only by real numbers. Therefore the real parts
+    # ``even`` and the imaginary parts ``odd`` are computed separately. Even powers of i are real.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
@@ -118,8 +117,7 @@ def _polynomial(
         *(Assign(x, zero) for part in parts for x in part),
         # The degree n is a multiple of 4, so i^n = 1. The coefficient of the highest power is 1/n!.
         Assign(parts[0][0], coefficient[4 * groups]),
-        # Each iteration makes four steps of Horner's rule. The loop runs from the highest powers to the
-        # lowest.
+        # Each iteration makes four steps of Horner's rule, which starts at the highest powers.
         For(group, groups, tuple(steps), reverse=True),
         *(Assign(target, value) for target, value in squares),
         *(Assign(result[k], value) for k, value in enumerate(entries)),
@@ -135,8 +133,8 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
 
     The step replaces a polynomial P in the matrix H by i^k/k! + H P. The characteristic equation
     H^3 = ``trace`` H + ``det`` keeps the degree of P at 2. ``part`` contains the real or the imaginary parts
-    of the coefficients of P. ``added`` contains 1/k! and k modulo 4. If i^k/k! does not contribute to
-    ``part``, ``added`` is None.
+    of the coefficients of P. ``added`` contains 1/k! and k modulo 4. If ``part`` does not depend on i^k/k!,
+    ``added`` is None.
     """
     last = real("last")
     # ``added[1]`` is k modulo 4. The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.

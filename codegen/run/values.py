@@ -23,8 +23,8 @@ def simple(statement: Simple) -> list[Statement]:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
-    # One call computes all Stumpff functions of the same argument, because they need the same square root,
-    # sine and cosine.
+    # All Stumpff functions of an argument need the same square root, sine and cosine. Therefore one call
+    # computes all of them.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
 
@@ -39,8 +39,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # The name of this array contains a space. No name in the kernel contains a space, so the name is
-            # new.
+            # No variable of the kernel has a name with a space, so this name is not in use.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)
@@ -49,7 +48,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of an array that contains exactly ``arguments``, in this order.
+    """Return the part of a result array that consists of ``arguments``, in this order.
 
     If ``arguments`` are not consecutive results of one call, None is returned.
     """

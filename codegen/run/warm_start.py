@@ -1,14 +1,16 @@
 """Warm start: the initial guess of a step is extrapolated from the solutions of previous steps.
 
 The guess is the value of a polynomial through the latest solutions. The degree of the polynomial is adapted
-to the sizes of the backward differences. As soon as ``depth`` solutions are stored, the degree is adapted
-only once in eight steps. If the error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns
-over the step, the earlier solutions are discarded. The next guess is then the latest solution.
+to the sizes of the backward differences. If ``Start.depth`` solutions are stored, the ring buffer is full.
+The degree is then adapted only once in :data:`SELDOM` steps.
+
+If the error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the earlier
+solutions are discarded. The next guess is then the latest solution.
 
 Each solution is stored twice in a ring buffer. Therefore the last ``depth`` solutions are always contiguous
 in memory. The guess for each unknown is a sum over these solutions. If there are at most :data:`FEW`
-unknowns, each sum is a scalar variable. For few unknowns, loops over arrays would take as long as the
-iterations that the warm start saves.
+unknowns, the sums are scalar variables. Loops over arrays would take as long as the iterations that the
+warm start saves.
 """
 
 from __future__ import annotations
@@ -52,7 +54,7 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""If ``depth`` solutions are stored, the degree of the polynomial is adapted once in this number of steps."""
+"""If the ring buffer is full, the degree of the polynomial is adapted once in this number of steps."""
 
 _I = count("i")
 
@@ -66,13 +68,13 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # An ``If`` computes only one of the two guesses. The guess without stored solutions takes more work, and
-    # it is usually needed only in the first step of a run.
+    # If no solution is stored, the guess takes more work. Usually only the first step of a run has no stored
+    # solution, so the ``If`` avoids this work in all other steps.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
 def memory_record(plan: Plan) -> Record:
-    """Return the type of the record with the data that one step of a run stores for the next step."""
+    """Return the type of the record in which a step stores data for the next step of a run."""
     fields: list[tuple[Term, str]] = []
     # ``words`` describes the data that this kernel stores, for the comment in the emitted code.
     words = []
@@ -86,23 +88,23 @@ def memory_record(plan: Plan) -> Record:
             (real("guess", past), "initial guess for the next step"),
             (
                 real("values", 2 * depth, past),
-                "ring buffer; a solution is in two rows, so the latest solutions are contiguous",
+                "ring buffer; each solution is in two rows, and the latest solutions are contiguous",
             ),
         ]
-        # The rates of convergence of the loops are used only if solutions are stored.
+        # Without a warm start, the rates of convergence of the loops are not stored.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of the implicit equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
-        # A matrix that is correct only to leading order in h is computed in each step and is not stored.
+        # Simplified Newton computes a new matrix in each step, so it stores no matrix.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
-                (count(f"age_{k}"), "age of the stored inverse matrix; 0 if none is stored"),
+                (count(f"age_{k}"), "age of the stored inverse of the Newton matrix; 0 if none is stored"),
                 (real(f"inverse_{k}", n * n), ""),
             ]
     if plan.newton:
-        words.append("inverses of Newton's matrices")
-    about = f"Data that one step of a run stores for the next: {', and '.join(words)}."
+        words.append("inverse matrices of Newton's method")
+    about = f"Data that a step stores for the next step of the run: {', and '.join(words)}."
     return Record(MEMORY, about, tuple(fields))
 
 
@@ -114,10 +116,10 @@ def differences(start: Start) -> Table:
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
-    # ``difference_of_few`` reads the coefficients in pairs. Each row ends with a zero, because the number of
-    # coefficients can be odd.
+    # ``difference_of_few`` reads the coefficients in pairs. If the number of coefficients in a row is odd,
+    # the last pair contains a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
-    about = "Backward differences: coefficients of order k in row k, latest solution first."
+    about = "Row k: coefficients of the backward difference of order k, latest solution first."
     return Table(_factors(start), padded, about)
 
 
@@ -131,13 +133,13 @@ def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     If n is at most FEW, the result contains n separate statements. Otherwise it contains one loop.
     """
     if n <= FEW:
-        # A compiler can interleave separate statements. A loop with few iterations would be slower.
+        # For few indices, separate statements are faster than a loop.
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
 
 class WarmStart:
-    """Builds the functions that store solutions and extrapolate the next solution."""
+    """Builds the functions that store solutions and compute the guess for the next step."""
 
     def __init__(self, plan: Plan) -> None:
         assert plan.start is not None
@@ -148,7 +150,7 @@ class WarmStart:
         )
         self.first = plan.memory.field("first")
         self.guess = plan.memory.field("guess", Kind.REAL, (self.n,))
-        # Each solution is stored in two rows, so there are twice as many rows as solutions.
+        # The ring buffer contains each solution twice.
         self.values = plan.memory.field("values", Kind.REAL, (2 * self.depth, self.n))
         self.factors = _factors(plan.start)
 
@@ -159,20 +161,21 @@ class WarmStart:
     def difference(self) -> Function:
         """Return the function that writes a backward difference of the solutions to the array ``sum``.
 
-        The latest solution is added last. The other terms can thus be added before that solution is known.
+        The latest solution is added last. The processor can then add the other terms before the latest
+        solution is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
         if self.n > FEW:
             i, j = _I, count("j")
-            # In the sum over j, the term with j = ``first`` contains the latest solution.
+            # The term with the index j = ``first`` contains the latest solution.
             term = sign * self.factors[order][j] * self.values[self.place + (j - first)][i]
             inner = For(i, whole(self.n), (Assign(result[i], result[i] + term),))
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop runs over the solutions, from the oldest to the latest. The inner loop
-                    # runs over the unknowns, because the unknowns of a solution are contiguous in memory.
+                    # The outer loop runs over the solutions, from the oldest to the latest. The unknowns
+                    # of a solution are contiguous in memory, so the inner loop runs over the unknowns.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -181,8 +184,8 @@ class WarmStart:
             ]
         about = (
             "A backward difference, multiplied by 'sign'. Terms with an index below 'first' are "
-            "omitted. The term of the latest solution is added last, so all other terms can be summed before "
-            "that solution is known."
+            "omitted. The latest solution is added last. The processor can then add the other terms before "
+            "the latest solution is known."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -190,8 +193,8 @@ class WarmStart:
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
         """Return the statements that compute a backward difference for at most FEW unknowns.
 
-        The sum for each unknown is a scalar variable. Each iteration of the emitted loop adds two terms to
-        each sum.
+        Each unknown has a scalar variable for its sum. Each iteration of the emitted loop adds two terms to
+        these sums.
         """
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
@@ -204,12 +207,12 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # The two products and their sum do not depend on the previous iteration. Only the addition to
-            # ``partial`` must wait for that iteration.
+            # The sum of the two products does not depend on the previous iteration. Only the addition to
+            # ``partial`` must wait for the previous iteration.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The loop starts at the oldest solution, because the latest solution is computed last.
+            # The loop ends at the latest solution, which is known last.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -230,16 +233,15 @@ class WarmStart:
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
     def remember(self) -> Function:
-        """Return the function that stores a solution and extrapolates the next one."""
+        """Return the function that stores a solution and computes the guess for the next step."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is not tested"),
+            Note("the guess is tested only if at least three solutions are stored"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
             Assign(self.first, number(0.0)),
-            # The ring buffer is filled downwards, so that row ``place + j`` contains the solution from the
-            # step j steps ago.
+            # The rows are filled downwards. Row ``place + j`` then contains the solution of j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
@@ -251,41 +253,41 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("choose the guess so that the backward difference of order degree + 1 is zero"),
-            # For a polynomial of degree k, the backward difference of order k + 1 is zero. This equation is
-            # solved for the value at the next step. The coefficient of this value is 1, so no division is
-            # needed.
+            Note("the guess for which the backward difference of order degree + 1 is zero"),
+            # For a polynomial of degree k, the backward difference of order k + 1 is zero. In that
+            # difference, the value at the next step has the coefficient 1, so no division is needed.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
-            "Store a solution. The guess for the next solution is the value of the polynomial through the "
-            "latest solutions, one step later."
+            "Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its "
+            "value is the guess for the next step."
         )
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
-        """Return the statements that discard the stored solutions after a bad guess."""
+        """Return the statements that discard the stored solutions if the error of the last guess is large."""
         moved = real("moved")
 
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The stored matrix of Newton's method is kept. The loop that uses this matrix tests whether a new
-        # matrix is needed.
+        # The stored matrix of Newton's method is not discarded. The loop of Newton's method tests whether it
+        # needs a new matrix.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The error of the guess and the change ``moved`` of the unknowns have the same units. ``moved``
-            # is also the error of the simplest guess: the previous solution.
+            # If the guess were the previous solution, its error would be ``moved``. An extrapolation must be
+            # better than this simplest guess.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that adapt the degree of the extrapolation.
 
-        If the backward difference of the next higher order is smaller, the degree is increased by one.
-        Otherwise, if the difference of the next lower order is smaller, the degree is reduced by one.
+        Let d be the degree. If the difference of order d + 1 is smaller than the difference of order d, the
+        degree is increased by one. Otherwise, if the difference of order d - 1 is smaller, the degree is
+        reduced by one.
         """
         size_now = real("size")
 
@@ -316,12 +318,12 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # The row ``place`` of the latest solution changes by one in each step. Therefore ``place`` can be
-        # used as a counter of steps.
+        # The number of rows is a multiple of SELDOM, and ``place`` changes by one in each step. Therefore
+        # ``place`` can count the steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(
-                f"adapt the degree of the extrapolation; with a full ring buffer, only once in {SELDOM} steps"
+                f"adapt the degree of the extrapolation; if the ring buffer is full, once in {SELDOM} steps"
             ),
             If(often, adapt),
         ]
