@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
 
@@ -85,6 +85,26 @@ def monotone(t: float, times: object) -> list[float]:
             f"expected finite times in t_eval, in increasing or decreasing order from t = {t}; sort the times"
         )
     return given
+
+
+def end_of_run(t: float, end: object, times: Sequence[float]) -> float:
+    """Return the time at which a run ends. The run starts at the time ``t``.
+
+    ``end`` is the user's argument. If ``end`` is None, the run ends at the last of the output times
+    ``times``. TypeError is raised if ``end`` is None and there are no output times. ValueError is raised if
+    the run would end before the last output time.
+
+    >>> end_of_run(0.0, None, [0.5, 1.0])
+    1.0
+    """
+    if end is None and not times:
+        raise TypeError("expected the argument end, which is the time at which the run ends")
+    last = real(times[-1] if end is None else end, "end")
+    if times and (last - times[-1]) * (times[-1] - t) < 0:
+        raise ValueError(
+            f"expected a run that reaches {times[-1]}, the last time in t_eval, found end = {last}"
+        )
+    return last
 
 
 def described(x: object) -> str:

@@ -15,7 +15,7 @@ from functools import cached_property
 from typing import Any
 
 from codegen import lanes
-from codegen.argument import count, described, monotone, numbers, real
+from codegen.argument import count, described, end_of_run, monotone, numbers, real
 from codegen.arrival import Arrival as Arrival
 from codegen.arrival import Begun, joined
 from codegen.arrival import Signals as Signals
@@ -222,15 +222,7 @@ class Integrator(RunToEnd):
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
         t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
         times = None if t_eval is None else monotone(t, t_eval)
-        if end is None:
-            if not times:
-                raise TypeError("expected the argument end, which is the time at which the run ends")
-            end = times[-1]
-        end = real(end, "end")
-        if times and (end - times[-1]) * (times[-1] - t) < 0:
-            raise ValueError(
-                f"expected a run that reaches {times[-1]}, the last time in t_eval, found end = {end}"
-            )
+        end = end_of_run(t, end, times or ())
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             options = {"rtol": rtol, "atol": atol, "limit": limit, "statistics": statistics}
             arrivals = [

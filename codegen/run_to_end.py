@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from codegen.argument import count, monotone, real
+from codegen.argument import count, end_of_run, monotone, real
 from codegen.arrival import Arrival, Begun, Reached, Signals, Statistics, Status
 from codegen.event import Crossing, Event, EventFunction, EventValues, events_of
 from codegen.printers.interface import Interface
@@ -56,11 +56,7 @@ class RunToEnd(ABC):
             raise TypeError("this module has no run to an end time; emit it with integrate=True")
         t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
         times = monotone(t, () if t_eval is None else t_eval)
-        end = real(end if end is not None or not times else times[-1], "end")
-        if times and (end - times[-1]) * (times[-1] - t) < 0:
-            raise ValueError(
-                f"expected a run that reaches {times[-1]}, the last time in t_eval, found end = {end}"
-            )
+        end = end_of_run(t, end, times)
         bounds = tuple(
             real(x, n) for x, n in ((rtol, "rtol"), (atol, "atol"), (least, "least"), (greatest, "greatest"))
         )

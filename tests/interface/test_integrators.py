@@ -244,6 +244,9 @@ def test_wrong_times_have_a_message() -> None:
         rigid("python").trajectory(START, 0.1)
     with pytest.raises(TypeError, match="expected the argument end"):
         rigid("python", True).adaptive(START)
+    module = codegen.load(codegen.emit("free_rigid_body", "cf:cf4", target="python", integrate=True))
+    with pytest.raises(TypeError, match="expected the argument end"):
+        module.integrate(START, 0, h=0.1)
 
 
 @pytest.mark.parametrize(("family", "order"), [("", 4), ("cg", 2), ("rkmk(1)", 3)])
