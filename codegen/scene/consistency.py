@@ -1,7 +1,8 @@
 """Checks of the formulas of a scene: its initial state, velocity, Hamiltonian field, flows and invariants.
 
 Formulas and their derivatives are compared at sample points of the manifold
-(:class:`codegen.scene.orbit.Orbit`). The derivatives are exact, apart from :func:`check_action`.
+(:class:`codegen.scene.orbit.Orbit`). :func:`check_action` uses central differences. All other checks use
+exact derivatives.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
     - The initial state lies on the manifold.
     - The two formulas of each pair in ``stated`` are equal.
-    - If ``parts`` is not empty, the sum of the parts is the Hamiltonian.
+    - If the scene lists the parts of its Hamiltonian, the sum of the parts is the Hamiltonian.
     - The invariants are constant along solutions.
     """
     orbit = orbit_of(problem)
@@ -57,8 +58,8 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 def check_parts(orbit: Orbit, problem: Problem) -> None:
     """Raise :class:`SceneError` if the sum of ``problem.parts`` is not the Hamiltonian.
 
-    The values of the formulas are compared at points of the orbit. Different formulas may have equal values
-    there, because of a relation such as |q|^2 = 1.
+    The values are compared at sample points of the manifold. Different formulas are permitted if relations
+    such as |q|^2 = 1 make their values equal on the manifold.
     """
     if not problem.parts or problem.hamiltonian is None:
         return
@@ -92,7 +93,7 @@ def check_start(orbit: Orbit) -> None:
 
 
 def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
-    """Raise :class:`SceneError` if the initial state should be a group element, but has no inverse."""
+    """Raise :class:`SceneError` if the states are group elements, and the initial state has no inverse."""
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return
@@ -110,8 +111,8 @@ def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
 def check_action(orbit: Orbit) -> None:
     """Raise :class:`SceneError` if the formulas of an action are wrong.
 
-    The identity of the group must not move a point y. For an element x of the Lie algebra, the velocity of
-    the action must be the derivative of exp(eps x).y with respect to eps at eps = 0. This derivative is
+    The identity of the group must map a point y to itself. For an element x of the Lie algebra, the velocity
+    of the action must be the derivative of exp(eps x).y with respect to eps at eps = 0. This derivative is
     approximated by a central difference with 40 digits. The test uses one point y and one element x.
     """
     d, group, action = orbit.domain, orbit.group, orbit.action
@@ -127,7 +128,7 @@ def check_action(orbit: Orbit) -> None:
             y,
             "the value of y, because act(identity, y) must be y",
         ),
-        ("velocity", action.velocity(d, group, x, y), slope, "the derivative of act(exp(eps x), y)"),
+        ("velocity", action.velocity(d, group, x, y), slope, "d/deps act(exp(eps x), y) at eps = 0"),
     ):
         for k, (a, b) in enumerate(zip(left, right, strict=True)):
             if abs(a - b) > d.rational(1, 10**SLOPE_DIGITS) * (1 + abs(a) + abs(b)):
@@ -165,9 +166,10 @@ def check_flow(
 ) -> None:
     """Check the user's formulas for the flow of one part of the Hamiltonian.
 
-    At the time 0, the formulas must give the initial state of the flow. At the times 0, 1/3 and -2/3, the
-    time derivatives of the formulas must equal ``rates``, the field of the part. Otherwise
-    :class:`SceneError` is raised. ``elapsed`` is the symbol of the time in the formulas.
+    At the time 0, the formulas must give the initial state of the flow. The time derivatives of the formulas
+    must equal ``rates``, the right-hand sides of the differential equations of the part. They are compared at
+    the times 0, 1/3 and -2/3. If a condition is violated, :class:`SceneError` is raised. ``elapsed`` is the
+    symbol of the time in the formulas.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:
@@ -175,7 +177,7 @@ def check_flow(
             there = point | {elapsed: orbit.domain.rational(tau, 3)}
             moved = orbit.values(formulas, there)
             if moved is None:
-                raise SceneError(f"the flow of {name} cannot be evaluated", where=orbit.name)
+                raise SceneError(f"the formulas for the flow of {name} cannot be evaluated", where=orbit.name)
             after = point | dict(zip(orbit.symbols, moved, strict=True))
             pairs = [("has the time derivative", orbit.values(slopes, there), orbit.values(rates, after))]
             if tau == 0:
@@ -187,8 +189,8 @@ def check_flow(
                             f"the coordinate {orbit.symbols[k]} of the flow of {name} {verb} {orbit.text(x)} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
-                            expected=f"{orbit.text(y)}, which follows from the equations of the part",
-                            hint="if the part is a sum of terms that do not commute, "
+                            expected=f"{orbit.text(y)}, from the equations of the part",
+                            hint="if the part is a sum of terms whose flows do not commute, "
                             "define each term as a separate part",
                         )
 

@@ -6,9 +6,9 @@ trivialised differential gamma(x) of the energy H is an element of the dual g*. 
 pairing <gamma(x), e> is the derivative of H(exp(eps e).x) with respect to eps at eps = 0.
 
 The bivector omega is a skew bilinear form on g*. A field that preserves H has the form x' = f(x).x with
-f = omega(gamma, .). On T*G, omega is the canonical bivector. For all other problems, omega is
-(gamma wedge f)/|gamma|^2. In this formula, gamma is read as an element of g with the same coordinates. The
-field f must be zero wherever gamma is zero.
+f = omega(gamma, .). For Hamilton's equations on T*G, omega is the canonical bivector. For all other
+equations, omega is (gamma wedge f)/|gamma|^2. This formula treats gamma as the element of g with the same
+coordinates. It requires that f is zero wherever gamma is zero.
 """
 
 from __future__ import annotations
@@ -33,9 +33,7 @@ ENERGY = "energy"
 """The name of the invariant that is the energy of a problem without a Hamiltonian."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
-"""The names of the operations that :func:`apply` evaluates. A program for one step may contain these
-operations.
-"""
+"""The names of the operations that :func:`apply` evaluates."""
 
 
 class Conservative(Protocol):
@@ -55,11 +53,11 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """The Hamiltonian H, or None for a field scene."""
+        """The Hamiltonian H. It is None for field scenes and for scenes with a wrench."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:
-        """The declared invariants."""
+        """The formulas of the invariants that the scene declares, by name."""
 
     @property
     def sites(self) -> Sites | None:
@@ -76,9 +74,9 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    For one site of a lattice, the energy is the energy of the site plus the energies of all its bonds. For
-    any other Hamiltonian problem, the energy is the Hamiltonian. For a problem without a Hamiltonian, the
-    energy is the invariant with the name ``energy``.
+    For one site of a lattice, the result includes the energies of all bonds of the site. For any other
+    Hamiltonian problem, the result is the Hamiltonian. For a problem without a Hamiltonian, the result is the
+    invariant with the name ``energy``.
     """
     if problem.sites is not None:
         return problem.sites.energy
@@ -154,9 +152,10 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the discrete gradient for the displacement x (eq. 2.31 of Marthinsen's thesis).
+    """Return the discrete gradient for a displacement by exp(x) (eq. 2.31 of Marthinsen's thesis).
 
-    ``before`` and ``after`` are the energies before and after the displacement. Among all covectors p with
+    ``before`` and ``after`` are the energies before and after the displacement. The covector g approximates
+    the differential of the energy between both points. Among all covectors p with
     <p, x> = ``after - before``, the result is nearest to g in the Euclidean norm. If x is zero, the result
     is g.
     """

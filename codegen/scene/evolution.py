@@ -1,13 +1,14 @@
 """The coordinates in which Taylor polynomials of a scene are computed.
 
 Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose
-equations contain the fewest products. The state of a Hamiltonian scene consists of a group element q and a
-momentum mu. The momentum in the body frame, P = Ad*_q mu, may need fewer products than mu. The equations for
-q and P are q' = q.W and P' = N. Here W is the velocity and N is the force in the body frame
-(:mod:`codegen.scene.body_frame`).
+equations contain the fewest products.
 
-Some coordinates of q may be omitted. The remaining coordinates must determine the omitted coordinates, and
-the equations of the remaining coordinates must not contain the omitted coordinates.
+The state of a Hamiltonian scene consists of a group element q and a momentum mu. The momentum in the body
+frame is P = Ad*_q mu. The equations q' = q.W and P' = N may contain fewer products than the equations for q
+and mu. Here W and N are the velocity and the force in the body frame (:mod:`codegen.scene.body_frame`).
+
+Coordinates of q are omitted if the remaining coordinates determine them, and if the equations of the
+remaining coordinates do not contain them.
 """
 
 from __future__ import annotations
@@ -41,10 +42,10 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
-    - ``inner``: the problem on R^m in these m coordinates.
+    - ``inner``: the equations, as a problem on R^m. Here m is the number of coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
-    - ``body``: the group if the coordinates contain the momentum in the body frame, otherwise None.
-    - ``missing``: the indices of the omitted coordinates.
+    - ``body``: the group of q if the coordinates contain the momentum in the body frame, otherwise None.
+    - ``missing``: the indices of the coordinates of the state that are omitted.
     """
 
     inner: Problem
@@ -53,9 +54,10 @@ class Evolution:
     missing: tuple[int, ...] = ()
 
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
-        """Convert the state y to the coordinates of this object.
+        """Convert the state y to these coordinates.
 
-        If y contains the momentum in the body frame, ``frame`` must be the group, otherwise None.
+        If y contains the momentum in the body frame, ``frame`` must be the group of q. In all other cases,
+        ``frame`` must be None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -67,10 +69,10 @@ class Evolution:
     def leave(
         self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
     ) -> Vector[S]:
-        """Convert the coordinates ``moved`` to a state, and project this state onto the manifold.
+        """Convert the coordinates ``moved`` after a step to a state, and project the state onto the manifold.
 
-        ``y`` is a state on the manifold, at the beginning of the step. If y and the result contain the
-        momentum in the body frame, ``frame`` must be the group, otherwise None.
+        ``y`` is the state before the step. If y and the result contain the momentum in the body frame,
+        ``frame`` must be the group of q. In all other cases, ``frame`` must be None.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -84,22 +86,22 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # Rounding errors make q slightly non-orthogonal. A conversion of the whole momentum would therefore
-        # change its length in each step. Only the change of the momentum in the step is converted.
+        # Rounding errors make q slightly non-orthogonal, so a conversion changes the length of a momentum.
+        # Therefore only the increment of the momentum in the step is converted.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
-        """Return the coordinates after a step of size h from the state y at the time t.
+        """Return the coordinates after a step of size ``domain.h`` from the state y at the time t.
 
         The coordinates are the values of Taylor polynomials of degree ``degree``.
         """
-        # The coefficient of degree k includes the factor h^k. The value of the polynomial is therefore the
-        # sum of the coefficients.
+        # The coefficient of degree k includes the factor h^k. Therefore the value of a polynomial at the end
+        # of the step is the sum of its coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The coefficient of degree 0 is the old value of the coordinate. It is added last.
-            # The sum of the other coefficients is usually small, and so are the rounding errors of this sum.
+            # The coefficient of degree 0 is the old value of the coordinate. It is added last, because the
+            # sum of the other coefficients is usually small and has small rounding errors.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -112,7 +114,7 @@ class Evolution:
         """Return the Taylor coefficients of the degrees 0 to ``degree``, as one list for each coordinate.
 
         The coefficient of degree k is the k-th time derivative of the coordinate at the time t, multiplied by
-        ``scale``^k / k!. If a coefficient is zero for all states, its list contains None in its place.
+        ``scale``^k / k!. None in a list denotes a coefficient that is zero for all states.
         """
         return self.recurrence(domain, start, t, scale).extend(degree)
 
@@ -134,7 +136,7 @@ class Evolution:
         return tuple(y[: self.body.size]), tuple(y[self.body.size :])
 
     def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
-        """Return all coordinates, including the omitted coordinates."""
+        """Return the coordinates ``moved``, completed by the omitted coordinates of q."""
         if not self.missing:
             return moved
         group, own = _of_element(self.outer.group), iter(moved)
@@ -157,9 +159,9 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates and equations with the fewest products of two power series.
+    """Return the coordinates whose equations contain the fewest products of two power series.
 
-    For a lattice, the result contains the coordinates of one site.
+    For a lattice, these are the coordinates of one site.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
@@ -169,8 +171,8 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # The list begins with the coordinates of the scene. If no other candidate needs fewer products, min
-    # returns the coordinates of the scene.
+    # If two forms need equally few products, min returns the earlier form. The first form uses the
+    # coordinates of the scene.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
@@ -183,7 +185,7 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # These initial values are not used: each step begins with the current values of the coordinates.
+    # These zeros are not used, because each step begins with the current values of the coordinates.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,
@@ -227,6 +229,6 @@ def _shorter(form: Evolution) -> Iterator[Evolution]:
 
 
 def _of_element(group: LieGroup) -> LieGroup:
-    """Return G if ``group`` is a cotangent bundle T*G, otherwise return ``group``."""
+    """Return the group of q: G if ``group`` is a cotangent bundle T*G, otherwise ``group``."""
     bundle = group.offers(CotangentBundle)
     return group if bundle is None else bundle.base

@@ -1,12 +1,13 @@
 """The extended phase space, on which a Hamiltonian H that depends on time becomes autonomous.
 
 The time becomes the coordinate tau, and u is the momentum conjugate to tau. The new Hamiltonian on T*(G x R)
-is K(q, tau, mu, u) = H(q, mu, tau) + u. Its equations contain tau' = 1 and u' = -dH/dt. The flow preserves
-K. The initial value of u is -H, so that K is zero (H. Marthinsen's thesis, section 4.3.2).
+is K(q, tau, mu, u) = H(q, mu, tau) + u. The equations of tau and u are tau' = 1 and u' = -dH/dtau. The
+initial value of u is -H at the initial state. Therefore K is zero along the exact solution (H. Marthinsen's
+thesis, section 4.3.2).
 
-Variational methods preserve the extended symplectic form. Discrete gradient methods preserve K. A step of
-size h of a variational method adds to u a weighted sum of the values of -h dH/dt at the stages (Example 4.4.5
-of the thesis).
+Variational methods preserve the symplectic form of T*(G x R). In a step of size h, they add to u a weighted
+sum of the values of -h dH/dtau at the stages (Example 4.4.5 of the thesis). Discrete gradient methods
+preserve K.
 """
 
 from __future__ import annotations
@@ -31,12 +32,12 @@ def extended(problem: Problem) -> Problem:
     The problem must have a Hamiltonian that depends on time, or it must be a linear Hamiltonian equation
     y' = A(t).y. For all other problems SceneError is raised.
 
-    A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
-    coordinates are called tau and u. If a coordinate or a parameter of the problem has one of these names,
-    underscores are appended to the new name.
+    A linear problem is extended by :mod:`codegen.scene.linear_extension`. In a Hamiltonian problem, the new
+    coordinates are the time tau and its conjugate momentum u. If a coordinate or a parameter of the problem
+    is called tau or u, underscores are appended to the name of the new coordinate.
 
-    If the Hamiltonian is a sum of ``parts``, u is added to the first part that does not depend on time. If
-    all parts depend on time, u becomes a new part.
+    If the problem lists the parts of its Hamiltonian, u is added to the first part that does not depend on
+    time. If all parts depend on time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))
@@ -84,7 +85,7 @@ def extended(problem: Problem) -> Problem:
 
 
 def _timed(problem: Problem) -> Expr:
-    """Return the time-dependent Hamiltonian of a problem. Raise SceneError if it does not exist."""
+    """Return the time-dependent Hamiltonian of a problem. Raise SceneError if the problem has none."""
     if problem.hamiltonian is None or not problem.paired:
         raise SceneError(
             f"{problem.name} has no momentum u conjugate to the time",

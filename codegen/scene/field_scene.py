@@ -35,7 +35,7 @@ def FieldScene(
 ) -> Problem:
     """Return the scene y' = f(y).y for a group acting on a manifold.
 
-    - ``y``: a sympy column of coordinate symbols.
+    - ``y``: the sympy symbols of the coordinates, as a column.
     - ``f``: a column of ``group.dim`` formulas in the coordinates, in the symbol ``t`` and in parameters.
     - ``y0``: the exact initial point.
     - ``span``: the rational time interval.
@@ -44,9 +44,14 @@ def FieldScene(
     - ``coordinates``: the coordinate map of Runge-Kutta-Munthe-Kaas methods: "exp", "cayley", "second_kind",
       or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
 
-    :class:`SceneError` is raised for a wrong shape or symbol, for an initial point that is not on the
-    manifold, and for a coordinate map that is not defined for the group. The error is also raised if
-    ``velocity`` differs from f(y).y, or if an invariant is not constant.
+    :class:`SceneError` is raised in these cases:
+
+    - A formula has a wrong shape or contains an unknown symbol.
+    - The initial point is not on the manifold.
+    - The coordinate map is not defined for the group.
+    - The formulas of ``action`` are wrong.
+    - ``velocity`` differs from f(y).y.
+    - An invariant is not constant along solutions.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

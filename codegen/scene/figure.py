@@ -1,9 +1,9 @@
-"""The figures of a scene. A figure shows runs of emitted code: it draws the values of formulas in the state.
+"""The figures of a scene. A figure draws the values of formulas along runs of emitted code.
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
 ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
-symbols of the scene, in its parameters and in the time ``t``. The name of an invariant of the scene may take
-the place of a formula.
+symbols of the scene, in its parameters and in the time ``t``. The name of an invariant of the scene denotes
+the formula of this invariant.
 """
 
 from __future__ import annotations
@@ -47,9 +47,10 @@ class Run:
     - ``label``: the name of the run in the figure, by default the method.
     - ``scene``: the name of the scene, by default the scene of the figure. ``+u`` denotes the scene of the
       figure, extended by the momentum conjugate to the time.
-    - ``tolerance``: the relative and absolute tolerance. If it is positive, the method chooses its own step
-      sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
-    - ``sweep``: values of a parameter. The run is repeated for each value, and the final states are shown.
+    - ``tolerance``: the relative and absolute tolerance. If the tolerance is positive, the method chooses its
+      own step sizes, and the states at every ``stride``-th multiple of ``h`` are shown.
+    - ``sweep``: values of a parameter or of ``h``. The run is repeated for each value, and the final states
+      are shown.
     """
 
     method: str
@@ -144,7 +145,7 @@ class Motion(Figure):
     - ``bars``: a map from the label of each bar to the two ends of the bar.
     - ``trace``: a point whose path is shown.
     - ``fixed``: a map from labels to points that do not move.
-    - ``stills``: the number of equally spaced times at which the figure also shows the bars.
+    - ``stills``: the number of equally spaced times at which the figure also shows still images of the bars.
     - ``seconds``: the duration of one cycle of the animation.
     - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
 
@@ -173,8 +174,8 @@ class TorusCurves(Figure):
     - ``directions``: formulas for the time derivatives of the angles, drawn as arrows.
     - ``levels``: a formula that is drawn as level lines.
 
-    The formulas in ``directions`` and ``levels`` are evaluated on a grid of angles, at the states that
-    ``state`` defines.
+    On a grid of angles, ``state`` gives the states. The formulas in ``directions`` and ``levels`` are
+    evaluated at these states.
     """
 
     angles: tuple[Quantity, Quantity]
@@ -236,7 +237,7 @@ class Deviation(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Scan(Figure):
-    """The distance between the final states of a run and of the reference run, plotted against a parameter.
+    """The distance of the final state of a run from that of the reference run, plotted against a parameter.
 
     Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
     with the least distance. This value is computed by minimisation and may lie between two values of the
@@ -250,9 +251,9 @@ class Scan(Figure):
 class Orders(Figure):
     """The error at the end of the time span, plotted against the step size, with one curve for each run.
 
-    The step size of each run is halved ``halvings`` times. The error is the distance
-    from the reference solution of the scene (``codegen.lab.distance``). For each number p in ``orders``, the
-    figure also shows a dashed line of slope p.
+    Each run is repeated ``halvings`` times, each time with half the previous step size. The error is the
+    distance from the reference solution of the scene (``codegen.lab.distance``). For each number p in
+    ``orders``, the figure also shows a dashed line of slope p.
     """
 
     halvings: int = 4

@@ -1,11 +1,11 @@
-"""The interface of exact flows. An exact flow is the exact solution for one summand (part) of a Hamiltonian.
+"""The interface of exact flows. The Hamiltonian is a sum of parts H_k.
 
-The flow of a part H_k moves the state (q, mu) along the solution of
+The exact flow of a part H_k moves the group element q and the momentum mu along the exact solution of
 
     q' = xi.q,   mu' = n - ad*_xi mu,   xi = D_2 H_k,   n = -(D_1 H_k).q^-1.
 
-D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27 of H. Marthinsen's thesis).
-:mod:`codegen.flows` has one class for each kind of flow in closed form.
+Here xi is the velocity and n is the force. D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27
+of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from codegen.ir.domain import Domain
 class Flow(ABC):
     """The exact flow of one part of the Hamiltonian, in closed form.
 
-    ``timed`` is True if the part depends on t. The value of t is constant along the flow. The argument
-    ``values`` of the methods contains the initial values of all symbols: the state, the parameters and t.
+    ``timed`` is True if the part depends on the time t. Along the flow, t keeps its initial value. The
+    argument ``values`` of the methods contains the initial values of the state, the parameters and t.
     """
 
     timed: bool = False
@@ -37,11 +37,11 @@ class Flow(ABC):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, n), where q' = xi.q and mu' = n - ad*_xi mu along this flow.
+        """Return the velocity xi and the force n, where q' = xi.q and mu' = n - ad*_xi mu along this flow.
 
-        ArithmeticError is raised if the flow has no formula for its field.
+        ArithmeticError is raised if no formulas for xi and n are known.
         """
 
     @abstractmethod
     def text(self) -> str:
-        """Return a text that describes the motion along the flow."""
+        """Return a short description of the flow."""
