@@ -51,17 +51,17 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu. The program computes xi = dH/dmu and
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu. Here xi = dH/dmu and
     n = -(dH/dq).q^-1. If H does not depend on t and there is no wrench, the energy is an invariant.
 
     - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
-    - ``xi``, ``n``: formulas for xi and n. They must equal the computed formulas.
+    - ``xi``, ``n``: optional formulas that are compared with dH/dmu and -(dH/dq).q^-1.
     - ``parts``: summands of H with names. The sum of all parts must be H.
-    - ``flows``: further exact flows of parts: formulas for (q, mu) after the time ``Symbol("tau")``.
+    - ``flows``: exact flows of parts, as pairs (q, mu) of formulas in the elapsed time ``Symbol("tau")``.
     - ``wrench``: a force that has no potential, in the space frame. A scene with a wrench has no ``parts``.
     - ``coordinates``: only "exp" is permitted.
 
-    :class:`SceneError` is raised for a wrong formula, and for the errors that :func:`FieldScene` lists.
+    :class:`SceneError` is raised for a formula that contradicts H, and for the errors of :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)
@@ -109,7 +109,7 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
         f"a wrench in a scene with the parts {', '.join(parts)}",
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint='remove the argument "parts": splittings compose exact flows, and a wrench has no exact flow',
+        hint='remove the argument "parts", because splittings compose exact flows and a wrench has none',
     )
 
 
@@ -136,9 +136,10 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 class _CanonicalSystem:
     """The formulas in the equations q' = xi.q and mu' = n + wrench - ad*_xi mu of a Hamiltonian scene.
 
-    ``summands`` contains the parts of H. ``roots`` contains the components of xi and n. ``loads`` contains
-    the components of the wrench, and is empty without a wrench. ``open_roots`` contains the components of xi
-    and n + wrench.
+    - ``summands``: the parts of H.
+    - ``roots``: the components of xi and n.
+    - ``loads``: the components of the wrench. Without a wrench, this tuple is empty.
+    - ``open_roots``: the components of xi and of the sum n + wrench.
     """
 
     reader: Reader
@@ -176,7 +177,7 @@ class _CanonicalSystem:
         return cls(reader, group, qs, mus, hamiltonian, summands, roots, loads, open_roots)
 
     def state(self, q0: Column, mu0: Column) -> tuple[StateField, StateField]:
-        """Return the blocks q and mu of the state with their initial values."""
+        """Return the two blocks of the state, q and mu, with initial values."""
         initial = self.reader.column
         return (
             StateField("q", Kind.GROUP, self.qs, initial(q0, len(self.qs), "q0", constant=True)),
@@ -194,17 +195,18 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return the components of xi or n twice: as given in ``column``, and as computed from H.
+        """Return two tuples of components: the formulas in ``column``, and the formulas computed from H.
 
-        ``key`` is "xi" or "n".
+        If ``key`` is "xi", the components belong to xi. If ``key`` is "n", they belong to n.
         """
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Return the formulas that the scene gives for exact flows. The keys of the result are the names of
-        the parts of H.
+        """Return the formulas that the scene gives for the exact flows of parts of H.
+
+        The keys of the result are the names of the parts.
         """
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():

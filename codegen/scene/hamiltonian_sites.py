@@ -4,11 +4,11 @@ The site i has the Hamiltonian h(q_i, mu_i). A bond with the offset d has the en
 total energy E is the sum of h over all sites and of V over all bonds.
 
 The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
-respect to mu_i, and n_i = -D.q_i^-1. The symbol D denotes the derivative of E with respect to q_i
+respect to mu_i. The force n_i = -D_i.q_i^-1 contains the derivative D_i of E with respect to q_i
 (:mod:`codegen.scene.canonical_equations`).
 
-For each offset d, the site i belongs to two bonds. Their energies V(q_i, q_{i+d}) and V(q_{i-d}, q_i) both
-contribute to n_i.
+For each offset d, the site i belongs to two bonds, one with the site i + d and one with the site i - d.
+Therefore the energies V(q_i, q_{i+d}) and V(q_{i-d}, q_i) both contribute to n_i.
 """
 
 from __future__ import annotations
@@ -59,14 +59,14 @@ def HamiltonianSiteScene(
 
     - ``q``, ``mu``: the coordinates of a site (``group.point``, ``group.dual``).
     - ``H``: the Hamiltonian of one site, without bonds. It is a formula in q, mu, t and parameters.
-    - ``bonds``: the energies of bonds (:class:`Bond`). Emitted code contains the forces on both sites.
-    - ``q0``, ``mu0``: the initial state of every site. Emitted code also accepts an array of states.
+    - ``bonds``: the energies of bonds (:class:`Bond`). Each energy gives the forces on both sites.
+    - ``q0``, ``mu0``: one initial state for all sites. Emitted code also accepts one state for each site.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: the element q of a missing neighbour at an open boundary. Give a column of ``group.size``
-      formulas in q, t and parameters, or a mapping from offsets to columns. Constants describe a clamped
-      end. Formulas in t describe a driven end. For a free end, give an element for which the bond exerts no
-      force. This element is often ``q``.
-    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts and of all bonds.
+    - ``outside``: the group element that replaces q of a missing neighbour at an open boundary. Give a column
+      of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. Constants
+      describe a clamped end. Formulas in t describe a driven end. For a free end, the element must give
+      zero force; often ``q`` does.
+    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts and of the bonds.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene` list. It is also raised for bonds that contain the momentum.
@@ -101,7 +101,7 @@ def HamiltonianSiteScene(
 
 
 def _check(problem: Problem, hamiltonian: Expr) -> None:
-    """Raise SceneError if a formula of the scene is wrong, or if the sum of ``problem.parts`` is not H."""
+    """Raise SceneError if the initial state is not on T*G, or if the sum of ``problem.parts`` is not H."""
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
 
@@ -128,7 +128,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
 def _of_bonds(
     reader: Reader, group: LieGroup, q: Sequence[str], energies: Sequence[tuple[int, Expr]]
 ) -> tuple[Expr, ...]:
-    """Return the components of the force that all bonds together exert on a site."""
+    """Return the components of the total force of all bonds on one site."""
     total = (reader.space.zero,) * group.dim
     for _, V in energies:
         pairs = zip(total, force(reader.space, group, q, gradient(V, q)), strict=True)

@@ -1,11 +1,12 @@
 """The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
 
 The vectors q and p have n components each. If A(t) is in sp(2n), y' = A(t).y is Hamilton's equation for
-H = (q'.p - p'.q)/2 = -y^T J A y/2 with J = (0, 1; -1, 0).
+H = (q'.p - p'.q)/2 = -y^T J A y/2. Here J is the 2n x 2n block matrix (0, I; -I, 0).
 
-The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. A step maps y to
-M(t) y with a symplectic matrix M(t), and maps u to U = u + y^T M^T J M' y/2 with M' = dM/dt (H. Marthinsen's
-thesis, equation (4.15)). This step is a canonical transformation of (q, p, t, u).
+The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. Let a step of a
+method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. The step is a
+canonical transformation of (q, p, t, u) if it maps u to u + y^T M^T J M' y/2 with M' = dM/dt (H. Marthinsen's
+thesis, equation (4.15)).
 """
 
 from __future__ import annotations
@@ -56,8 +57,8 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 def without_momentum_rate(problem: Problem) -> Problem:
     """Return the extended linear problem with u' = 0 in place of u' = -dH/dt.
 
-    Methods for linear problems compute u separately. The formula -dH/dt contains the state. The other
-    formulas for the field do not contain the state.
+    Methods for linear problems need a field that does not contain the state, but -dH/dt contains the state.
+    Therefore these methods compute u separately.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))
@@ -87,12 +88,12 @@ def _hamiltonian(problem: Problem) -> Expr:
     hamiltonian = _constant(space, Fraction(1, 2)) * total
     slopes = gradient(hamiltonian, symbols)
     normal = NormalForms(space)
-    # Hamilton's equations q' = dH/dp and p' = -dH/dq hold exactly if and only if the matrix is in sp(2n).
+    # The matrix A(t) is in sp(2n) if and only if Hamilton's equations q' = dH/dp and p' = -dH/dq hold.
     canonical = (*slopes[n:], *(-s for s in slopes[:n]))
     if not all(normal(a - b).is_zero for a, b in zip(rates, canonical, strict=True)):
         raise SceneError(
             f"{refusal}, because A(t) is not in sp({2 * n}) for the coordinates (q, p)",
-            expected="A(t) with J A symmetric, where J = (0, 1; -1, 0)",
+            expected="A(t) with J A symmetric, where J = (0, I; -I, 0)",
         )
     if normal(gradient(hamiltonian, (TIME,))[0]).is_zero:
         raise SceneError(

@@ -15,7 +15,7 @@ from codegen.scene.matrix_field import MatrixField
 
 @dataclass(frozen=True)
 class LinearField(MatrixField):
-    """The field A(t) X on n x k matrices X. ``matrix`` is A(t); ``program`` computes the product A(t) X."""
+    """The field A(t) X on n x k matrices X. The attribute ``matrix`` contains A(t)."""
 
     matrix: TimeMatrix
     linear: ClassVar[bool] = True
@@ -25,7 +25,7 @@ class LinearField(MatrixField):
     ) -> tuple[Scalar, ...]:
         """Return the entries of A(t) row by row. A(t) does not depend on ``x``.
 
-        Use this method only for small matrices.
+        The result has n^2 entries. Therefore this method is practical only for small n.
         """
         n = self.rows
         entries = [domain.rational(0)] * (n * n)

@@ -35,18 +35,17 @@ def LinearScene(
     name: str = "scene",
     title: str = "",
 ) -> Problem:
-    """Return the scene y' = A(t).y for a group acting on a manifold.
+    """Return the scene y' = A(t).y, where the dot is the action of the Lie algebra on y.
 
-    ``A`` is a column of ``group.dim`` formulas in the symbol ``t`` and in parameters. For a group of n x n
-    matrices, ``A`` can also be an n x n matrix of formulas. This matrix must be in the Lie algebra. ``y``
-    contains the symbols of the coordinates in ``velocity`` and ``invariants``, by default y0, y1 and so on.
+    - ``A``: a column of ``group.dim`` formulas in ``t`` and in parameters. For a group of n x n matrices,
+      ``A`` can also be an n x n matrix of formulas.
+    - ``y``: the symbols in ``velocity`` and ``invariants``; by default, the real symbols y0, y1 and so on.
+    - ``steps``: methods that map the state y to M y with a matrix M. The keys are names. Each value contains
+      a formula for M (:mod:`codegen.scene.matrix_step`) and the order. In commands, write ``step:NAME``.
+
     :func:`codegen.scene.FieldScene` describes the other arguments. For y' = y A(t), use the action
-    ``RightMultiplication()`` and pass -A in place of A.
-
-    ``steps`` defines methods y1 = M y0 with a matrix M. The keys are names. Each value is a pair: a formula
-    for M (:mod:`codegen.scene.matrix_step`) and the order of the method. Commands call the method
-    ``step:NAME``. :class:`SceneError` is raised if ``A`` depends on the state, if the matrix ``A`` is not in
-    the Lie algebra, and for the errors that ``FieldScene`` lists.
+    ``RightMultiplication()`` and pass -A in place of A. :class:`SceneError` is raised if ``A`` depends on the
+    state, if a matrix ``A`` is not in the Lie algebra, and for the errors that ``FieldScene`` lists.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
@@ -88,7 +87,7 @@ def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> di
     SceneError is raised in four cases:
 
     - The group does not act by multiplication with matrices.
-    - A formula contains an exponential or a logarithm without a closed form.
+    - A formula needs a closed form of exp or log, and the matrices are larger than 2 x 2.
     - The order of a method is not a positive integer.
     - The matrix A does not depend on the time.
     """

@@ -1,4 +1,4 @@
-"""Fields V(X) on Stiefel manifolds, where V is a formula in matrices such as A X - X (X^T A X)."""
+"""Fields V(X) on Stiefel manifolds. V is a matrix formula, for example V(X) = A X - X (X^T A X)."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from codegen.ir.expr import walk
 
 @dataclass(frozen=True)
 class MatrixField:
-    """A tangent field V(X) on the n x k matrices X with orthonormal columns; ``program`` computes V.
+    """A tangent field V(X) on the n x k matrices X with orthonormal columns; ``program`` computes V(X).
 
-    The skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2 satisfies V = S X. The rank of S is at most 2k.
+    V(X) = S X holds for the skew matrix S = W X^T - X W^T with W = V - X (X^T V)/2. The rank of S is at
+    most 2k.
     """
 
     program: ArrayProgram
     linear: ClassVar[bool] = False
-    """True if V(X) = A X with a matrix A that does not depend on X."""
+    """True if the field is linear: V(X) = A X with a matrix A that does not depend on X."""
 
     @property
     def rows(self) -> int:
@@ -33,7 +34,7 @@ class MatrixField:
         return self.program.argument.columns
 
     def reads(self, symbol: str) -> bool:
-        """Return True if a formula for a coefficient or for a matrix entry contains ``symbol``."""
+        """Return True if a scalar coefficient of V or an entry of a matrix in V contains ``symbol``."""
         nodes = walk(self.program.expressions())
         return any(node.op == "sym" and node.payload == symbol for node in nodes)
 
@@ -48,7 +49,7 @@ class MatrixField:
     ) -> tuple[Scalar, ...]:
         """Return the n x n matrix S with V(X) = S X, row by row. ``x`` contains the entries of X.
 
-        Use this method only for small matrices.
+        The result has n^2 entries. Therefore this method is practical only for small n.
         """
         n, k = self.rows, self.columns
         v, half = self.velocity(domain, x, symbols), domain.rational(1, 2)

@@ -2,7 +2,7 @@
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
-fewest multiplications. In the example, no product is an 800 x 800 matrix.
+fewest multiplications. In the example, X @ X.T would be an 800 x 800 matrix and is not computed.
 
 >>> X = unknown(800, 4)
 >>> A = banded(800, {-1: -1, 0: 2, 1: -1})
@@ -138,7 +138,7 @@ class Times(MatrixFormula):
 
 
 def unknown(rows: int, columns: int) -> Unknown:
-    """Return the matrix X that denotes the state of a :class:`codegen.scene.StiefelScene` in formulas."""
+    """Return the symbol X for the state of a :class:`codegen.scene.StiefelScene`, which is a matrix."""
     _size(rows, "rows")
     _size(columns, "columns")
     return Unknown(rows, columns)
@@ -149,10 +149,10 @@ def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None
 
     ``diagonals`` maps the offset j - i of a diagonal to the entries a_ij of this diagonal. Give one scalar
     for the whole diagonal, a function of the row i, or a list of all entries. Rows and columns are counted
-    from 0. For a scalar or a function, the emitted code does not become longer with the number of rows.
+    from 0. For a scalar or a function, the length of the emitted code does not depend on the number of rows.
 
-    :class:`SceneError` is raised for an offset outside the matrix. A list of a wrong length is rejected when
-    the scene is defined.
+    :class:`SceneError` is raised for an offset outside the matrix. The scene that contains the matrix raises
+    SceneError for a list of a wrong length.
     """
     _size(rows, "rows")
     width = rows if columns is None else columns
@@ -180,7 +180,7 @@ def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
 
 
 def _sized(formula: MatrixFormula, rows: int, columns: int) -> None:
-    # The classes are frozen and permit no assignment ``formula.rows = rows``.
+    # The formulas are frozen dataclasses, which do not permit the assignment ``formula.rows = rows``.
     object.__setattr__(formula, "rows", rows)
     object.__setattr__(formula, "columns", columns)
 
@@ -194,7 +194,7 @@ def _matrix(value: object) -> MatrixFormula:
     if isinstance(value, MatrixFormula):
         return value
     raise SceneError(
-        f"{str(value)[:40]} of type {type(value).__name__} in a formula of matrices",
+        f"{str(value)[:40]} of type {type(value).__name__} in a matrix formula",
         expected="a matrix",
         hint="write constant matrices as banded(n, {...}) or full(n, m, rows)",
     )

@@ -43,7 +43,8 @@ from codegen.scene.matrix_formula import (
 )
 
 ARGUMENT, RESULT = "point", "velocity"
-"""The names of the arrays in the program: the array for X, and the array for the value of the formula."""
+"""The names of two arrays in an array program: the array for X, and the array for the value of the formula.
+"""
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A computed matrix. If ``transposed`` is True, ``matrix`` is the transpose of the computed matrix."""
+    """A computed value. If ``transposed`` is True, ``matrix`` contains the transpose of this value."""
 
     matrix: Matrix
     transposed: bool = False
@@ -86,11 +87,11 @@ class _Stored:
 
 
 Summand = tuple[Expr, tuple[_Factor, ...]]
-"""A summand of a formula: a coefficient, and the factors of a product of matrices."""
+"""A scalar coefficient times a product of matrices: the coefficient, and the factors of the product."""
 
 
 def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
-    """Return the program that computes a formula in the unknown matrix ``x``.
+    """Return the array program that computes a formula in the unknown matrix ``x``.
 
     :class:`SceneError` is raised in four cases:
 
@@ -110,7 +111,8 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
 def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
     """Return the pairs (c, C) of a sum of terms c C, where c is a scalar and C is a constant matrix.
 
-    :class:`SceneError` is raised for a product of matrices, for an unknown, and for an invalid entry.
+    :class:`SceneError` is raised if ``formula`` contains a product of matrices, an unknown matrix, or a
+    constant matrix with an invalid entry.
     """
     compiler = _Compiler(reader, Unknown(formula.rows, 1))
     terms: list[tuple[Expr, ConstantMatrix]] = []
@@ -128,7 +130,7 @@ def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, Co
 
 @dataclass
 class _Compiler:
-    """Collects the statements of one array program."""
+    """Translates one matrix formula. The list ``body`` collects the statements of the array program."""
 
     reader: Reader
     x: Unknown
@@ -137,7 +139,7 @@ class _Compiler:
     constants: dict[tuple[int, bool], ConstantMatrix] = field(default_factory=dict)
 
     def program(self, formula: MatrixFormula) -> ArrayProgram:
-        """Return the program that computes the formula."""
+        """Return the array program that computes the formula."""
         one = self.reader.space.one
         stored = self.total(tuple(self.summands(formula, one, False)), self.x.rows, self.x.columns)
         result = Matrix(RESULT, self.x.rows, self.x.columns)
@@ -146,14 +148,14 @@ class _Compiler:
 
     @property
     def argument(self) -> Matrix:
-        """The array of the program that contains the unknown matrix X."""
+        """The array for the unknown matrix X."""
         return Matrix(ARGUMENT, self.x.rows, self.x.columns)
 
     def summands(self, formula: MatrixFormula, c: Expr, transposed: bool) -> Iterable[Summand]:
         """Yield products whose sum is c F. F is ``formula``, or its transpose if ``transposed`` is True."""
         match formula:
             case Scaled(factor=factor, matrix=matrix):
-                own = self.reader.scalar(factor, "a coefficient of the velocity")
+                own = self.reader.scalar(factor, "a scalar factor of a matrix")
                 yield from self.summands(matrix, c * own, transposed)
             case Sum(left=left, right=right):
                 yield from self.summands(left, c, transposed)
@@ -170,14 +172,14 @@ class _Compiler:
         """Return a formula as a factor; raise :class:`SceneError` for an unknown other than X."""
         if isinstance(formula, Unknown) and formula is not self.x:
             raise SceneError(
-                "the velocity contains a matrix unknown(...) other than x",
+                "the velocity contains an unknown matrix other than x",
                 where=self.reader.name,
                 expected="a formula in x",
             )
         return _Factor(formula, transposed)
 
     def factors(self, formula: MatrixFormula, transposed: bool) -> tuple[Expr, tuple[_Factor, ...]]:
-        """Return the coefficient and the factors of a formula.
+        """Write a formula as a scalar times a product of matrices. Return the scalar and the factors.
 
         If ``transposed`` is True, use the transpose of the formula. A formula that is not a product has one
         factor.
@@ -190,15 +192,16 @@ class _Compiler:
                 return self.factors(matrix, not transposed)
             case Scaled(factor=factor, matrix=matrix):
                 own, inner = self.factors(matrix, transposed)
-                return self.reader.scalar(factor, "a coefficient of the velocity") * own, inner
+                return self.reader.scalar(factor, "a scalar factor of a matrix") * own, inner
             case _:
                 return self.reader.space.one, (self.factor(formula, transposed),)
 
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
-        """Expand sums among the factors of a product. Yield the resulting products, multiplied by c.
+        """Expand some sums among the factors of a product. Yield the resulting products, multiplied by c.
 
-        A sum is expanded in two cases: a term of the sum is a constant matrix, or the sum is large. A sum is
-        large if its numbers of rows and columns both exceed the number of columns of X.
+        A sum is expanded if one of its terms is a constant matrix, because the program cannot add it.
+        A sum is also expanded if it is large, because it would need a large array. A large sum has more rows
+        and more columns than the number of columns of X.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -211,7 +214,7 @@ class _Compiler:
         yield c, factors
 
     def total(self, summands: tuple[Summand, ...], rows: int, columns: int) -> _Stored:
-        """Return the stored sum of the summands, a matrix with the given numbers of rows and columns."""
+        """Append the statements for a sum of size ``rows`` x ``columns``, and return the sum."""
         values = [(c, self.product(factors)) for c, factors in summands]
         if len(values) == 1 and values[0][0] is self.reader.space.one:
             return values[0][1]
@@ -223,11 +226,11 @@ class _Compiler:
         return _Stored(target, flipped)
 
     def fresh(self, rows: int, columns: int) -> Matrix:
-        """Return a new intermediate matrix of the program."""
+        """Return a new array for an intermediate value."""
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the stored product of the factors. Compute each product only once."""
+        """Return the product of the factors. Append statements only at the first call with these factors."""
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -245,7 +248,7 @@ class _Compiler:
         return self.multiplied(self.product(left), self.product(right))
 
     def single(self, factor: _Factor) -> _Stored:
-        """Return the stored value of a single factor. Raise SceneError if the factor is a constant matrix."""
+        """Return the value of one factor. Raise SceneError if the factor is a constant matrix."""
         if factor.constant is not None:
             raise self.constant_product()
         if isinstance(factor.formula, Unknown):
@@ -268,8 +271,8 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # Let C be the constant matrix and Z a stored matrix. In place of C Z^T, the program computes the
-        # transpose Z C^T.
+        # The statement Apply can transpose the constant matrix C, but not the array Z. Therefore Z C^T is
+        # computed in place of C Z^T.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows
@@ -282,7 +285,7 @@ class _Compiler:
         """Return the product of two matrices that depend on X."""
         rows, columns = left.rows, right.columns
         if columns > rows:
-            # If the product A B has more columns than rows, the program stores (A B)^T = B^T A^T.
+            # If the product A B has more columns than rows, its transpose B^T A^T is stored.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
             self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))
@@ -292,7 +295,7 @@ class _Compiler:
         return _Stored(target)
 
     def constant(self, given: Constant, *, transposed: bool = False) -> ConstantMatrix:
-        """Return the matrix ``given`` in the form that array programs use.
+        """Return the matrix ``given`` as a :class:`ConstantMatrix`.
 
         If ``transposed`` is True, return the transpose of ``given``.
         """
@@ -307,8 +310,8 @@ class _Compiler:
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
     """Return the statements without a superfluous copy at the end.
 
-    The last statement stores the result. If this statement only copies the matrix of the previous statement,
-    the previous statement stores the result instead.
+    If the last statement only copies the target of the previous statement into the result array, it is
+    removed. The previous statement then writes into the result array.
     """
     *before, last = body
     assert isinstance(last, Combination)
@@ -321,8 +324,8 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
     """Return the least number of scalar multiplications for a product of matrices, and a number k.
 
-    The best order first multiplies the first k factors and the remaining factors separately. At the end, it
-    multiplies the two results.
+    In the best order, the last multiplication is (product of the first k factors) times (product of the
+    other factors).
     """
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}
@@ -366,8 +369,7 @@ def _filled(constant: Constant) -> float:
 def _transposed(given: Constant) -> Constant:
     """Return the transpose of a constant matrix."""
     if given.diagonals is not None:
-        # The diagonal ``offset`` of a matrix has the same list of entries as the diagonal ``-offset`` of the
-        # transpose.
+        # The diagonal ``offset`` of a matrix is the diagonal ``-offset`` of its transpose.
         diagonals = {-offset: _shifted(entry, offset) for offset, entry in given.diagonals.items()}
         return Constant(given.columns, given.rows, diagonals, None)
     entries = given.entries
@@ -384,8 +386,9 @@ def _transposed(given: Constant) -> Constant:
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
     """Return the entries of the diagonal ``-offset`` of A^T, where A is a matrix.
 
-    ``entry`` contains the entries of the diagonal ``offset`` of A. The entry in the row i of A^T is in the
-    row i - offset of A. Therefore a function of the row is shifted. Lists and scalars stay unchanged.
+    ``entry`` contains the entries of the diagonal ``offset`` of A. The entry of this diagonal in the row i of
+    A^T is in the row i - offset of A. Therefore a function f of the row becomes f(i - offset). Lists and
+    scalars stay unchanged.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
@@ -403,8 +406,8 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
         return ConstantMatrix(name, given.rows, given.columns, (), entry)
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
-    # The main diagonal comes first. If the matrix is square, the main diagonal has an entry in every row.
-    # Emitted code can then set each row of a product to this contribution, and add the other contributions.
+    # The main diagonal comes first, because it has an entry in every row of a square matrix. Emitted code
+    # can set each row of a product to the contribution of this diagonal, and add the other contributions.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")
@@ -434,7 +437,7 @@ def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], siz
 
 
 def _flat(given: object) -> list[object] | None:
-    """Return all entries of a list, a list of rows or an array in one list. For a scalar, return None."""
+    """Return the entries of a vector or of nested rows as one flat list. For a scalar, return None."""
     if hasattr(given, "tolist"):
         given = given.tolist()
     if not isinstance(given, list | tuple):
