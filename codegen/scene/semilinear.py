@@ -1,4 +1,4 @@
-"""Semilinear problems u' = L u + N(u) on a periodic interval, and a scalar model problem to verify steps."""
+"""Semilinear problems u' = L u + N(u) on a periodic interval, and a scalar model problem for tests."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from codegen.ir.number import Number
 from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
-"""The number of brackets after which the model problem truncates the series of dexp^{-1}.
+"""The index of the last term in the series of dexp^{-1} for the model problem. Term k has k brackets.
 
-Term k of the series is about (z/(2 pi))^k, where z is the step size times the eigenvalue of the model. The
-verified steps have length at most 1/2, so |z| is at most 1/4. The omitted terms are below (8 pi)^-21 = 4e-30.
+Term k is about (z/(2 pi))^k, where z is the step size times the eigenvalue -1/2 of the model problem. The
+compiler passes are tested with step sizes up to 1/4, so |z| is at most 1/8. The omitted terms are below
+(16 pi)^-21 = 2e-36.
 """
 
 
@@ -59,7 +60,7 @@ class ExactExponential(CoordinateMap):
     """The exponential map of the group of affine maps.
 
     Emitted code computes its inverse differential by a closed form (:mod:`codegen.kernel.mode_kernel`). The
-    model problem (:func:`model_of`) uses the series of the inverse differential with :data:`TERMS` brackets.
+    model problem (:func:`model_of`) uses the series of the inverse differential up to term :data:`TERMS`.
     """
 
     name = "exp"
@@ -78,10 +79,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the model problem u' = -u/2 + N(u) for one number u. Step programs are verified on this problem.
+    """Return the model problem u' = -u/2 + N(u) for one number u. It serves to test the compiler passes.
 
     If the nonlinear term of the scene depends on the time, N(u) is u^2 + t. Otherwise N(u) is u^2. One model
-    suffices, because a step program is the same for all linear operators L and all nonlinear terms.
+    suffices, because the operations of a step are the same for all L and all N.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -36,7 +36,7 @@ SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 """Wave numbers k for a test of L. The values of the Fourier symbol of L at k and -k must be conjugate."""
 
 DIGITS_OF_PI = 60
-"""The number of digits of the rational number that replaces pi in formulas."""
+"""The number of digits of pi in formulas. Formulas contain only rational constants."""
 
 
 def SemilinearScene(
@@ -58,7 +58,7 @@ def SemilinearScene(
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters. It may be complex; for example, the factor of d/dx is I*k.
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m), where g is a formula in the same symbols. The factor c must not depend on ``u`` and ``x``.
+      c Dx(g, m). Here g is a formula in these symbols and derivatives, and c does not depend on u and x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: a fraction. This fraction of the Fourier modes of N is kept. True means 2/3, False means 1.
 
@@ -127,7 +127,7 @@ class _Parser:
                 "L depends on the time",
                 where=self.name,
                 expected="constant coefficients",
-                hint="move this term to N",
+                hint="move the terms that depend on t from L to N",
             )
         return tuple(read)
 
@@ -135,7 +135,7 @@ class _Parser:
         """Return N as a pair (inner, terms).
 
         ``inner`` contains the order and the symbol of each derivative of u in N. ``terms`` maps orders m to
-        formulas. Differentiate ``terms[m]`` m times with respect to x: the sum over all m is N.
+        formulas g_m. N is the sum of the x-derivatives of order m of g_m.
         """
         import sympy
 
@@ -224,7 +224,7 @@ class _Parser:
 
 
 def _with_digits(formula: sympy.Expr) -> sympy.Expr:
-    """Return a formula in which pi is replaced by a rational number."""
+    """Return the formula with a rational approximation of pi, because the converter does not accept pi."""
     import sympy
 
     if not isinstance(formula, sympy.Basic) or not formula.has(sympy.pi):

@@ -8,9 +8,8 @@ contributes f(y).y to the velocity of a site. The velocity of the site is the su
 The generators must be constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau
 is then y -> exp(tau f(y)).y.
 
-The flows of two pairs commute if the pairs share no site. The pairs along an axis of the lattice are
-therefore divided into two sets. The first site of each pair has an even index in one set, and an odd index in
-the other set.
+The pairs along an axis of the lattice form two sets. The first site of each pair has an even index in one
+set, and an odd index in the other set. Two pairs of one set share no site, so their flows commute.
 """
 
 from __future__ import annotations
@@ -111,7 +110,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the one or two sites of a part, and their time derivatives along its flow."""
+    """Return the coordinates of the sites of a part, and the time derivatives of these coordinates."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -218,8 +217,8 @@ def _summed(
 ) -> list[mpmath.mpf]:
     """Return the velocity of a site as the sum of the velocities of all parts.
 
-    A part that couples two sites counts once for each neighbour along its axis. ``states`` contains only the
-    neighbours that exist.
+    If a part couples sites along an axis, both neighbours along this axis contribute. ``states`` contains
+    only the neighbours that exist.
     """
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)

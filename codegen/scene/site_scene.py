@@ -58,8 +58,8 @@ def SiteScene(
     """Return the scene of a chain or lattice with any number of sites. All sites have the same equation.
 
     - ``y``: the coordinates of a site, on which ``group`` acts.
-    - ``f``: a column of ``group.dim`` formulas in ``y``, the time t, parameters, and the coordinates of
-      neighbours (:func:`codegen.scene.sites.neighbour`).
+    - ``f``: the generator of a site in the equation y' = f.y. It is a column of ``group.dim`` formulas in
+      ``y``, t, parameters, and the coordinates of neighbours (:func:`codegen.scene.sites.neighbour`).
     - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
     - ``outside``: at an open boundary, the state that replaces a missing neighbour. It is a column of
@@ -72,9 +72,9 @@ def SiteScene(
     - ``invariants``: functions of the state of one site. They must be constant along the solutions at every
       site, for arbitrary states of the neighbours.
 
-    :class:`SceneError` is raised for the errors of a field scene, for offsets of different lengths and for a
-    missing neighbour without formulas in ``outside``. It is also raised if the parts do not add up to the
-    field, if a part has no exact flow, or if the total energy is not constant.
+    :class:`SceneError` is raised in the cases of :func:`codegen.scene.FieldScene`, for offsets of different
+    lengths, and if ``outside`` lacks a neighbour. It is also raised if the parts do not add up to the field,
+    if a part has no exact flow, or if the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -101,8 +101,8 @@ def SiteScene(
 
 
 def _check(problem: Problem) -> None:
-    """Raise SceneError if the formulas of the scene are inconsistent, if the parts do not satisfy the
-    conditions of :func:`check_parts`, or if the total energy is not constant.
+    """Raise SceneError if a condition of :func:`check_action`, :func:`check_problem`, :func:`check_parts` or
+    :func:`_check_energy` is violated.
     """
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
@@ -136,7 +136,7 @@ def _with_energy(
 
 
 def _check_energy(problem: Problem) -> None:
-    """Raise SceneError if the total energy changes along the solutions of a small lattice."""
+    """Raise SceneError if the total energy of an autonomous problem changes on a small lattice."""
     if problem.sites is None or problem.sites.energy is None:
         return
     whole = small(problem)
@@ -160,8 +160,7 @@ def _check_energy(problem: Problem) -> None:
 def with_frozen_neighbours(scene: Problem) -> Problem:
     """Return the problem of one site with fixed neighbours. The coordinates of the neighbours are parameters.
 
-    The values of these parameters are near the initial state of a site. The checks of the formulas use these
-    values. Emitted code uses the states of the neighbours.
+    The formulas of the scene are tested at one site, with fixed neighbours near the initial state.
     """
     sites = scene.sites
     assert sites is not None
@@ -190,7 +189,7 @@ def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> 
         raise SceneError(
             "a field that reads no neighbour",
             where=name,
-            expected="formulas in neighbour(y, offset)",
+            expected="formulas that contain neighbour(y, offset)",
             hint='use FieldScene; for many independent systems, use the command "emit" with --batch',
         )
     lengths = {len(offset) for offset in offsets}

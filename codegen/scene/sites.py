@@ -144,7 +144,7 @@ class Sites:
         """Return the share of a site in the total energy. The shares of all sites add up to the total energy.
 
         The share contains the energy of the site. If both sites of a bond exist, the share contains one half
-        of the energy of the bond. If the neighbour is missing, the share contains the whole energy.
+        of the energy of the bond. If the neighbour is missing, the share contains all of it.
 
         ``exists`` has one entry for each offset: true or 1 if the neighbour exists, false or 0 if it is
         missing.

@@ -17,7 +17,8 @@ from codegen.scene.site_scene import with_frozen_neighbours
 def reads_only_static(scene: Problem) -> bool:
     """Return True if all coordinates that the field of a scene reads are static.
 
-    On a lattice, this includes the coordinates of neighbours and of the states outside an open boundary.
+    On a lattice, the coordinates of neighbours and the coordinates in the formulas ``outside`` of an open
+    boundary must be static, too.
     """
     # A static coordinate usually results from a zero component of the generator. If no component is zero,
     # return False at once, because the velocity formulas below are expensive for a large field.

@@ -28,11 +28,10 @@ if TYPE_CHECKING:
     import sympy
 
 MOST_ROWS = 8
-"""The largest number n of rows for which the scene contains formulas for the generator in the coordinates of
-the Lie algebra of SO(n).
+"""The largest number n of rows for which a scene contains formulas for the components of the generator.
 
-Methods that compute in these coordinates need the formulas. The commands ``stability``, ``localerror`` and
-``bench`` need the formulas, too. The length of the formulas grows as n^3.
+Some methods, and the commands ``stability``, ``localerror`` and ``bench``, need these formulas. The length of
+the formulas grows as n^3.
 """
 
 TOLERANCE = 1e-10
@@ -59,10 +58,9 @@ def StiefelScene(
     - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
     - ``span``: the ends of the time interval, two rational numbers.
 
-    The generator of the motion is the skew-symmetric matrix W X^T - X W^T, where W = V - X (X^T V)/2. A step
-    of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. If V
-    contains a matrix as a list of entries, the length of the code grows with n. Otherwise the length does not
-    depend on n.
+    The equation is X' = A X with the skew-symmetric generator A = W X^T - X W^T, where W = V - X (X^T V)/2. A
+    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. The
+    length of emitted code depends on n only if V contains a matrix as a list of entries.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.
@@ -109,7 +107,7 @@ def _start(reader: Reader, x: Unknown, y0: Sequence[sympy.Expr] | None) -> tuple
 def _roots(
     reader: Reader, field: MatrixField, group: SO, symbols: tuple[str, ...], parameters: tuple[str, ...]
 ) -> tuple[Expr, ...]:
-    """Return formulas for the coordinates of the generator (:func:`StiefelScene`) in the Lie algebra."""
+    """Return formulas for the components of the generator of :func:`StiefelScene`."""
     domain = ExprDomain(reader.space)
     point = [reader.space.sym(s) for s in symbols]
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}
@@ -117,15 +115,15 @@ def _roots(
 
 
 def _check(problem: Problem, field: MatrixField) -> None:
-    """Raise :class:`SceneError` if the initial matrix does not have orthonormal columns, or if the velocity V
-    is not tangent at one of two test points.
+    """Raise :class:`SceneError` if the columns of the initial matrix are not orthonormal, or if V is not
+    tangent at the initial matrix or at a second matrix.
     """
     domain = FloatDomain(0.0)
     start = [float(value) for value in problem.initial(domain)]
     error = _largest(_gram(start, start, field.columns), unit=True)
     if not error <= TOLERANCE:
         raise SceneError(
-            f"the columns of y0 are not orthonormal: the largest entry of y0^T y0 - 1 is {error:.1e}",
+            f"the columns of y0 are not orthonormal: the largest entry of y0^T y0 - I is {error:.1e}",
             where=problem.name,
             expected="orthonormal columns",
         )

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""A bound in radians for the fastest undamped rotation of a stiff variant.
+"""The largest angle, in radians, by which an undamped rotation turns over the time span of a stiff variant.
 
-The rotation angle over the time span is at most this bound. At angles above a few hundred radians, the phase
-error of an explicit method is so large that its order cannot be measured.
+At larger angles, the phase error of explicit methods is too large to measure their order.
 """
 
 

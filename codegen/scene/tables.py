@@ -19,9 +19,7 @@ HOLD, EXTRAPOLATE = "hold", "extrapolate"
 OUTSIDE = (HOLD, EXTRAPOLATE)
 
 LARGEST = 512
-"""The largest number of points. The number of digits of the exact spline coefficients grows with the number
-of points.
-"""
+"""The largest number of points of a table. The exact spline coefficients need more digits for more points."""
 
 
 class TableData(sympy.Atom):  # type: ignore[misc]
@@ -76,14 +74,14 @@ def table(
 
     - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
       ``linear``.
-    - ``outside``: the values beyond the table. ``hold`` returns the value at the nearest point.
-      ``extrapolate`` evaluates the polynomial of the nearest interval.
+    - ``outside``: the values beyond the table. ``hold`` is the value at the nearest point.
+      ``extrapolate`` is the polynomial of the nearest interval.
 
     :class:`SceneError` is raised for lists of different lengths, for fewer than 2 or more than LARGEST
     points, for numbers in ``xs`` that do not increase, and for an unknown ``smoothness`` or ``outside``.
 
-    The function is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
-    first derivative of a linear table jumps.
+    An interpolant is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
+    first derivative of a linear interpolant jumps.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")
