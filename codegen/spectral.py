@@ -121,7 +121,7 @@ class InterpretedSpectral(Spectral):
 
 
 class CompiledSpectral(Spectral):
-    """An emitted C module for a semilinear equation, in a shared object.
+    """An emitted C module for a semilinear equation, loaded from a shared object.
 
     If the number of points is a power of two, the module uses its own Fourier transforms. Otherwise the
     module calls the transforms of NumPy.
@@ -182,7 +182,7 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array for n points. The C function ``name`` computes its length."""
+        """Return an uninitialised array. The C function ``name`` computes the array length for n points."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))

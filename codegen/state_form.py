@@ -72,9 +72,9 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state, and the flat list of the numbers in the state.
 
-    ValueError is raised if the state does not consist of ``size`` real numbers. A tuple is also compared with
-    ``fields``: each entry must fill one field or several consecutive fields. If there are fewer than two
-    fields, the sizes of the entries are not checked.
+    ValueError is raised if the state does not consist of ``size`` real numbers. If the state is a tuple, each
+    entry must fill one field or several consecutive fields, else ValueError is raised. If there are fewer
+    than two fields, the sizes of the entries are not checked.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
@@ -122,7 +122,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the end of an error message: the names and sizes of the fields. Without fields it is empty."""
+    """Return the end of an error message: the names and sizes of the fields, or nothing."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 

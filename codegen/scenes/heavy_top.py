@@ -3,8 +3,7 @@
 The kinetic energy is mu.I^-1 mu/2, where mu is the right-trivialised momentum. The components of mu are
 components in space, so the inertia tensor I is fixed in space. In the scene ``fast_heavy_top`` the inertia is
 fixed in the body. In ``heavy_top`` the momentum about the body's third axis is conserved.
-`orderconds longrun heavy_top --properties` measures the properties of methods that Table 2.1 of the thesis
-lists.
+`orderconds longrun heavy_top --properties` measures the properties in Table 2.1 of the thesis.
 """
 
 from sympy import Matrix, diag, eye
@@ -37,7 +36,7 @@ figures = [
     SphereCurves(
         name="centre",
         title="Centre of mass of the heavy top, four theta-methods",
-        caption="5000 steps of size 0.01. The symplectic (SLGI) methods stay in narrow bands.",
+        caption="5000 steps of size 0.01. The curves of the symplectic (SLGI) methods stay in narrow bands.",
         source="Fig. 2.6 of the thesis",
         point=tuple(g * e3),
         runs=(

@@ -54,7 +54,7 @@ W = G.point("w")
 
 
 def cubic(i: int, d: int) -> Expr:
-    """Return E[y_i^3 x_d] for y = W x, as a polynomial in the entries of W."""
+    """Return the mean E[y_i^3 x_d] as a polynomial in W. x are the whitened signals, and y = W x."""
     terms = product(PLACES, repeat=3)
     return sum(W[i, a] * W[i, b] * W[i, c] * moments[*sorted((a, b, c, d))] for a, b, c in terms)
 

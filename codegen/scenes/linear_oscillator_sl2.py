@@ -58,7 +58,7 @@ figures = [
         title="The energies H and −u of Lie-Gauss minus the exact energy",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.3. "
-        "The reference is Lie-Gauss with h = 0.03.",
+        "Lie-Gauss with h = 0.03 approximates the exact energy.",
         source="Fig. 4.1a of the thesis",
         quantities=both,
         axis="difference from the exact energy",
@@ -71,7 +71,7 @@ figures = [
         title="The energies H and −u of Lie-Euler beside the exact energy",
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.6. "
-        "The exact energy is that of Lie-Gauss with h = 0.03.",
+        "Lie-Gauss with h = 0.03 approximates the exact energy.",
         source="Fig. 4.1b of the thesis",
         quantities=both,
         axis="energy",
@@ -99,7 +99,7 @@ figures = [
     Deviation(
         name="energy_errors",
         title="Energy errors: the maximum over each group of 500 steps",
-        caption="eps = 0.1, alpha = 0.123, h = 0.3. The exact energy is that of Lie-Gauss with h = 0.02.",
+        caption="eps = 0.1, alpha = 0.123, h = 0.3. Lie-Gauss with h = 0.02 approximates the exact energy.",
         source="Fig. 4.3 of the thesis",
         quantity=H,
         axis="largest difference from the exact energy",

@@ -21,7 +21,7 @@ OWN = frozenset({"codegen", "orderconds"})
 
 
 class Neighbours(MetaPathFinder):
-    """Finds the modules and packages of one folder."""
+    """Finds the neighbours with the given names in a folder."""
 
     def __init__(self, folder: Path, names: frozenset[str]) -> None:
         self.folder, self.names = folder, names
@@ -29,7 +29,7 @@ class Neighbours(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the import specification of a module in the folder, or None for other modules."""
+        """Return the import specification of a neighbour, or None for other modules."""
         if path is not None or fullname not in self.names:
             return None
         return PathFinder.find_spec(fullname, [str(self.folder)], target)
@@ -37,7 +37,7 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Let imports within a ``with`` block find the neighbours of a scene file.
+    """Let imports within a ``with`` block find the neighbours: modules in the folder of the scene file.
 
     The neighbours are removed from ``sys.modules`` at the end of the block.
     """

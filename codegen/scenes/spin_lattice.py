@@ -6,8 +6,8 @@ sum of three terms: the exchange field, the anisotropy field and an external fie
 times the sum of the four neighbouring spins. The lattice is periodic, and the energy is constant.
 
 As in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys. 133 (1997) 160-172), the energy is split into the
-energies of pairs of neighbours and the energies of single spins. The exact flow of each part is a rotation:
-the spins of a pair turn about their sum, and a single spin turns about the third axis.
+energies of pairs of neighbours and the energies of single spins. The exact flow of each of these energies
+is a rotation: the spins of a pair turn about their sum, and a single spin turns about the third axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros

@@ -1,7 +1,7 @@
 """Stiff driven spin on the sphere: the equation of ``driven_spin`` with K = 2000 and alpha = 1/2.
 
 The equation has the rates K = 2000 and alpha K = 1000, so explicit methods need steps of about 1/1000. But
-the solution itself is slow: it follows the slowly rotating field.
+the solution is slow: the spin follows the slowly rotating magnetic field.
 """
 
 from dataclasses import replace

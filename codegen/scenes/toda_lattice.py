@@ -2,8 +2,8 @@
 
 Sources: H. Marthinsen's thesis, section 2.2.2 (isospectral flows); H. Flaschka, The Toda lattice II, Physical
 Review B 9 (1974), 1924-1925. B(L) is the skew matrix that is equal to L above the diagonal. SO(3) acts
-by conjugation, so a step preserves the eigenvalues of L. The solution stays tridiagonal. For large times it
-tends to the diagonal matrix of the eigenvalues in decreasing order.
+by conjugation, so a step preserves the eigenvalues of L. The initial matrix is tridiagonal, and L stays
+tridiagonal. For large times L tends to the diagonal matrix of the eigenvalues in decreasing order.
 """
 
 from sympy import Matrix, symbols
@@ -12,7 +12,7 @@ from codegen.groups import SO3, Conjugation
 from codegen.scene import FieldScene
 
 L = Matrix(3, 3, symbols("l0:3(0:3)", real=True))
-# The vector f of so(3) has the skew matrix [[0, -f2, f1], [f2, 0, -f0], [-f1, f0, 0]]. It is equal to B.
+# The vector f of so(3) has the skew matrix [[0, -f2, f1], [f2, 0, -f0], [-f1, f0, 0]]. This matrix is B.
 f = Matrix([-L[1, 2], L[0, 2], -L[0, 1]])
 B = Matrix([[0, L[0, 1], L[0, 2]], [-L[0, 1], 0, L[1, 2]], [-L[0, 2], -L[1, 2], 0]])
 

@@ -23,9 +23,9 @@ draw = Random(1006)
 
 
 def full(c: Matrix) -> Matrix:
-    """Return the real 6 x 6 matrix of a complex 3 x 3 matrix V.
+    """Return the real 6 x 6 matrix [[Re V, -Im V], [Im V, Re V]] of a complex 3 x 3 matrix V.
 
-    ``c`` is the 6 x 3 matrix of V: Re V above Im V. The transpose of the result is the real matrix of V^H.
+    ``c`` is the 6 x 3 matrix of V: Re V above Im V. The transpose of the result is the 6 x 6 matrix of V^H.
     """
     return c.row_join(Matrix.vstack(-c[3:, :], c[:3, :]))
 

@@ -34,7 +34,7 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return all helpers. A helper has the same name in all target languages.
+    """Return all helpers of emitted code. A helper has the same name in all target languages.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
     ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero.
@@ -105,11 +105,11 @@ def _shared_angle(
 
 
 def trigonometric(precision: Precision) -> list[Snippet]:
-    """Return the helpers for sine and cosine without branches.
+    """Return the helpers for sine and cosine in loops over many systems.
 
-    The helpers ``sin_near`` and ``cos_near`` are for angles up to
+    The helpers ``sin_near`` and ``cos_near`` have no branches. They are for angles up to
     :data:`~codegen.snippets.lane_angles.LARGEST`. The helpers ``sin_complete`` and ``cos_complete`` are for
-    all angles: for larger angles they call the library functions.
+    all angles. For larger angles they call the library functions.
     """
     shared = {
         **lane_angles.reduction(precision),

@@ -73,7 +73,7 @@ def _half_pi() -> Fraction:
 
 
 def _exponent(x: Fraction) -> int:
-    """Return the smallest e such that x < 2^e."""
+    """Return the smallest integer e such that x < 2^e, for x > 0."""
     e = x.numerator.bit_length() - x.denominator.bit_length() + 1
     while x < Fraction(2) ** (e - 1):
         e -= 1

@@ -46,14 +46,15 @@ LEFT = 10
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
 
-    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
-    eps = 2^-bits be the relative rounding error of the angle. The error of the rotated vector is a eps. The
-    error of the field at the rotated vector is assumed to be 8 a eps.
+    For larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. The
+    significand of a number has ``precision.bits`` bits. Let eps = 2^-bits be the relative rounding error of
+    the angle. The error of the rotated vector is a eps. The error of the field at the rotated vector is
+    assumed to be 8 a eps.
 
     In a step, ``chain`` rotations follow each other. The angle of each rotation is computed from the result
     of the preceding rotation (:func:`codegen.ir.angle_depth.chain`). The error of the last vector is
-    therefore a^chain 8^(chain-1) eps. The largest angle is chosen such that this error is at most 2^-LEFT
-    (:data:`LEFT`). But the largest angle is at least 2^(bits/6) and at most 2^(2 bits/5).
+    therefore a^chain 8^(chain-1) eps. The largest angle is the highest power of two with an error of at
+    most 2^-LEFT (:data:`LEFT`). But the exponent is at least bits/6 and at most 2 bits/5, both rounded down.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -90,8 +91,8 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     of shifted Chebyshev polynomials are subtracted. The shifted polynomials are zero at z = 0, so the value
     at z = 0 is exact.
 
-    The error bound is small, because in a steady motion z is nearly constant. The errors of all steps then
-    have the same sign and add up.
+    The bound is below the rounding error for the following reason. In a steady motion z is nearly constant,
+    so the errors of all steps have the same sign and add up.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
