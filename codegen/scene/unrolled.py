@@ -84,10 +84,11 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def small(scene: Problem) -> Problem:
-    """Return an unrolled lattice with few sites.
+    """Return a small lattice of the scene as one system.
 
-    In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all
-    neighbours. If this requires more than :data:`MOST_SITES` sites, a smaller open lattice is returned.
+    In a periodic lattice, no site is its own neighbour. In an open lattice, at least one site has all its
+    neighbours. If such an open lattice has more than :data:`MOST_SITES` sites, a smaller one is returned. In
+    the smaller lattice, every neighbour of the scene exists for at least one site.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

@@ -1,4 +1,4 @@
-"""The gallery: the scenes that belong to the program, with one file for each scene.
+"""The gallery: the scenes of this package, with one file for each scene.
 
 The function :func:`load` returns a scene of the gallery, a registered scene, or the scene of a Python file.
 """
@@ -105,7 +105,7 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
     if name in BUILT_IN or not name.isidentifier():
-        raise SceneError(f"the name {name!r}", expected="an identifier that is not a scene of the gallery")
+        raise SceneError(f"the name {name!r}", expected="an identifier, but not the name of a built-in scene")
     named = _named(scene, name)
     _REGISTERED[name] = (named, about)
     return named
@@ -165,7 +165,7 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
         raise SceneError(
             described(scene),
             where="scene",
-            expected="a scene, a name of the gallery, or a path of a Python file",
+            expected="a scene, the name of a scene, or the path of a Python file",
         )
     return load(fspath(scene))
 
@@ -246,7 +246,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
     """Return the stiff variants of a scene of the gallery.
 
     A stiff variant has a very short time scale or is near a singularity. For a user's scene the result is
-    empty. A user's scene may have the name of a gallery scene, so the formulas are compared, too.
+    empty, even if the scene has the name of a gallery scene.
     """
     if scene.name not in GALLERY:
         return ()

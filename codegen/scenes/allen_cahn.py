@@ -1,4 +1,4 @@
-"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, as a field of affine maps.
+"""The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, with a group of affine maps.
 
 The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. The nonlinear term is
 N(u) = u - u^3. L is eps times the second difference quotient. The points have the spacing 1/7, and u = 0 at
@@ -9,7 +9,7 @@ methods are exponential integrators, too. The bracket of (A1, c1) and (A2, c2) h
 A1 c2 - A2 c1. The thesis prints this translation with an additional term c1.
 
 A method with negative coefficients, such as ``cg3``, integrates diffusion backwards in time in a part of each
-step. Backward diffusion amplifies all errors. With long steps, no digit of the result is correct.
+step. Backward diffusion amplifies all errors. With long steps, such a method gives no correct digit.
 """
 
 from sympy import Matrix, Rational, symbols

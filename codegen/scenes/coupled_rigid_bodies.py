@@ -1,15 +1,15 @@
 """Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)).
 
-The centre of mass of both bodies is at rest. The joint is at the point d_k of body k, and d_k lies on a
-principal axis of this body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k in the
-body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
+The common centre of mass of the two bodies is at rest. The joint is at the point d_k of body k, and d_k lies
+on a principal axis of this body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k
+in the body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
 
     H = (sum_k P_k.w_k - b.S^-1 b)/2,    w_k = J_k^-1 P_k,    b = g_2 (w_2 x d_2) - g_1 (w_1 x d_1),
-    S = 1/eps + sum_k g_k C_k g_k^T,     C_k = hat(d_k)^T J_k^-1 hat(d_k).
+    S = E/eps + sum_k g_k C_k g_k^T,     C_k = hat(d_k)^T J_k^-1 hat(d_k).
 
-Here hat(d) is the matrix of v -> d x v. Without the joint, the points d_1 and d_2 would separate with the
-velocity b. The matrix S is the inverse of the effective mass at the joint. The energy and the total angular
-momentum are conserved.
+Here E is the identity matrix, and hat(d) is the matrix of v -> d x v. Without the joint, the points d_1 and
+d_2 would separate with the velocity b. The matrix S is the inverse of the effective mass at the joint. The
+energy and the total angular momentum are conserved.
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378.
@@ -32,7 +32,7 @@ d1, d2 = Matrix([0, 0, 1]), Matrix([Rational(3, 4), 0, 0])
 
 
 def resistance(d: Matrix, J: Matrix) -> Matrix:
-    """Return the matrix hat(d)^T J^-1 hat(d) of a body with the inertia J. Its joint is at the point d."""
+    """Return hat(d)^T J^-1 hat(d), the term C_k of a body with the inertia J and the joint at the point d."""
     hat = Matrix([[0, -d[2], d[1]], [d[2], 0, -d[0]], [-d[1], d[0], 0]])
     return hat.T * J.inv() * hat
 

@@ -8,7 +8,8 @@ box, Phys. Rev. A 76 (2007), 042319). The Hamiltonian is
 
 Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the diagonal. The parameter a
 is the anharmonicity, ``rabi`` the strength of the pulse, and ``delta`` the largest detuning. The pulse ends
-near nu t = pi. During the pulse, the detuning delta cos(nu t) passes through the resonances of the system.
+at nu t = pi, near the end of the time interval. During the pulse, the detuning delta cos(nu t) passes through
+the resonances of the system.
 
 The state consists of the 8 real numbers (Re psi, Im psi). The generator -i H depends on time, but not on the
 state, so the equation is linear. The entries of H are large compared with the rate nu of the pulse.

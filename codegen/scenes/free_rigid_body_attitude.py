@@ -1,9 +1,9 @@
 """Free rigid body with its attitude, on T*SO(3). The motions are geodesics of a left-invariant metric.
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
-I the inertia, and hat(W) the matrix of v -> W x v. W and P are the angular velocity and momentum in the body
-frame. The right-trivialised momentum mu = g P is the angular momentum in space. It is constant, because no
-torque acts on the body.
+I the inertia, and hat(W) the matrix of v -> W x v. W is the angular velocity and P the angular momentum, both
+in the body frame. The right-trivialised momentum mu = g P is the angular momentum in space. It is constant,
+because no torque acts on the body.
 """
 
 from sympy import Matrix, Rational, diag, eye

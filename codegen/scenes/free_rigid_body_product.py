@@ -1,8 +1,8 @@
 """Free rigid body on SO(3) x R^3. The attitude is a rotation, and the momentum is a vector in R^3.
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
-I the inertia, and hat(W) the matrix of v -> W x v. W and P are the angular velocity and momentum in the body
-frame. The moments of inertia are the same as in ``free_rigid_body_attitude``.
+I the inertia, and hat(W) the matrix of v -> W x v. W is the angular velocity and P the angular momentum, both
+in the body frame. The moments of inertia are the same as in ``free_rigid_body_attitude``.
 
 With a Lie group method the attitude stays a rotation, but numerical errors change |P| and the energy. In
 ``free_rigid_body`` and ``free_rigid_body_attitude``, Lie group methods preserve the length of the momentum.

@@ -2,9 +2,9 @@
 
 The equations are q' = q (0, W)/2 and P' = P x W with W = I^-1 P (Hairer and Vilmart 2006). The unit
 quaternion q rotates vectors from the body frame to space. The real part of a quaternion is its first
-coordinate. I is the inertia, and W and P are the angular velocity and momentum in the body frame. The moments
-of inertia are the same as in ``free_rigid_body_product``. Here the attitude has four coordinates, and in
-``free_rigid_body_product`` it has nine.
+coordinate. I is the inertia. W is the angular velocity and P the angular momentum, both in the body frame.
+The moments of inertia are the same as in ``free_rigid_body_product``. Here the attitude has four coordinates,
+and in ``free_rigid_body_product`` it has nine.
 """
 
 from sympy import Matrix, Rational, diag

@@ -3,7 +3,7 @@
 The equation is q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2 (H. Marthinsen's thesis, section
 2.6). Here q^c is the conjugate of q, and E maps a unit quaternion to its rotation matrix. I is the inertia.
 The angular momentum m0 in space is constant. The moments of inertia are 1, 5 and 60. They differ widely, so
-the energy changes strongly with the attitude q.
+a small error of the attitude q causes a large error of the energy.
 
 The initial angular velocity I^-1 m0 is (1, 1/2, -1), and the energy is 31.125. The thesis prints
 I m0 = (1, 1/2, -1), but this value gives the energy 0.501.
@@ -54,7 +54,7 @@ figures = [
     PlaneCurves(
         name="momentum",
         title="Momentum in the body up to t = 1000, four methods",
-        caption="Dots are states at intervals of 1/4. The exact curve is closed, with m3 near -60.",
+        caption="Dots are states at time intervals of 1/4. The exact curve is closed, with m3 near -60.",
         source="Fig. 2.7 of the thesis",
         point=(m[0], m[1]),
         axes=("m₁", "m₂"),

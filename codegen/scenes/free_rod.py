@@ -5,7 +5,7 @@ shear, extension, bending and torsion. A site is a cross section with the frame 
 centre x. The director d3 is normal to the section. A rod of length L consists of L/ds equal pieces, and the
 mass of each piece is concentrated in its cross section. P. Betsch and P. Steinmann (Int. J. Numer. Methods
 Eng. 54 (2002) 1775-1788) form the strains from the mean directors (d_a + d_a')/2 of two neighbouring
-sections. The strains Gamma_a and the energy V of these sections are
+sections. For two neighbouring sections, the strains Gamma_a and the elastic energy V are
 
     Gamma_a = (d_a + d_a').(x' - x)/(2 ds) - delta_a3,
     V = ds/2 sum_a S_a Gamma_a^2 + 1/(2 ds) sum_a D_a |d_a' - d_a|^2.
@@ -13,8 +13,8 @@ sections. The strains Gamma_a and the energy V of these sections are
 A prime denotes the second section, and delta_a3 is the Kronecker delta. S = (GA, GA, EA) contains the
 stiffnesses of shear and extension. The numbers D_1 = D_2 = GJ/2 and D_3 = EI - GJ/2 follow from the
 stiffnesses K = (EI, EI, GJ) of bending and torsion: for a small rotation theta between the sections, the
-second sum is sum_a K_a theta_a^2. V is a polynomial. A rigid motion of both sections does not change V, so
-the total momentum is constant.
+second sum is sum_a K_a theta_a^2. V is a polynomial in the coordinates of the sections. A rigid motion of
+both sections does not change V, so the total momentum is constant.
 
 The code divides all energies and momenta by ds. This does not change the equations of motion.
 """
@@ -32,8 +32,8 @@ q, mu = GROUP.point("q"), GROUP.dual("mu")
 R, x = Matrix(3, 3, q[:9]), Matrix(q[9:])
 ds = param("ds", Rational(1, 20))
 
-# The section is a circle with the radius L/10. The mass per length, the length L and EI are 1. Young's
-# modulus E and the shear modulus G satisfy 2 E = 5 G.
+# The section is a circle with the radius L/10. The mass per length, the length L and EI are 1. Poisson's
+# ratio is 1/4, so Young's modulus E and the shear modulus G satisfy 2 E = 5 G.
 MASS, INERTIA = 1, (Rational(1, 400), Rational(1, 400), Rational(1, 200))
 EI, GJ = param("EI", 1), param("GJ", Rational(4, 5))
 EA, GA = param("EA", 400), param("GA", Rational(27, 28) * 160)
@@ -51,22 +51,23 @@ stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True)
 bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
 
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
-"""Coordinates of cross sections beyond the ends of the rod.
+"""Coordinates of additional cross sections, just beyond the ends of the rod.
 
-The key (-1,) denotes the end at the first section, and (1,) denotes the end at the last section.
+The section with the key (-1,) is before the first section of the rod. The section with the key (1,) is after
+the last section of the rod.
 """
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""The cross sections beyond the two free ends of a rod. Each cross section has the matrix R of its end of the
-rod. Its position makes all strains zero, even if R has rounding errors. Free ends therefore feel no force."""
+"""Additional cross sections for free ends. They have the same frame R as the section at the end of the rod.
+Their centres make all strains zero, even if R has rounding errors. Therefore no force acts on the end."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. The acceleration ``gravity`` acts in the direction of -e1.
 
-    ``ends`` contains cross sections beyond the ends of the rod. A bond joins each of these sections to its
-    end of the rod. An end without such a section is free.
+    ``ends`` contains additional cross sections beyond the ends of the rod. Each additional section is joined
+    elastically to the end of the rod. An end without an additional section is free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(

@@ -269,7 +269,9 @@ class TestRegisterRefuses:
         with pytest.raises(SceneError, match="x: cannot register 3; expected a scene"):
             scenes.register("x", 3)
         for name in ("dipole", "no name", "a+u"):
-            with pytest.raises(SceneError, match="expected an identifier that is not a scene of the gallery"):
+            with pytest.raises(
+                SceneError, match="expected an identifier, but not the name of a built-in scene"
+            ):
                 scenes.register(name, on_the_group())
 
 
