@@ -28,7 +28,10 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--order", "-p", type=click.IntRange(*CONDITION_ORDER), required=True, help="The highest order."
 )
 @click.option(
-    "--stages", "-s", type=click.IntRange(*EXPANDED_STAGES), help="Expand the sums for this number of stages."
+    "--stages",
+    "-s",
+    type=click.IntRange(*EXPANDED_STAGES),
+    help="Expand the sums over the stages for methods with this number of stages.",
 )
 @click.option(
     "--explicit",

@@ -1,8 +1,8 @@
-"""``orderconds list``: list families, tableaux, and what other packages offer.
+"""``orderconds list``: list families, tableaux, and objects of other packages.
 
-Another package may offer a list of its own objects. For this, the package registers a function as an entry
-point in the group ``orderconds.listings``. The function has no arguments. It returns one dictionary for each
-object, with the keys "name" and "about". The value of "about" is a description in one line.
+To list its own objects here, another package registers a function as an entry point in the group
+``orderconds.listings``. The function has no arguments. It returns one dictionary for each object, with the
+keys "name" and "about". The value of "about" is a description in one line.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def command(kind: str | None, as_json: bool) -> int:
 
 
 def kinds_offered() -> list[str]:
-    """Return the kinds that can be listed. The built-in kinds come first.
+    """Return the kinds of objects that can be listed. The built-in kinds come first.
 
     >>> kinds_offered()[:2]
     ['families', 'tableaux']
@@ -96,4 +96,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""For each kind of this package, the function that yields the records of the kind."""
+"""The built-in kinds of objects. Each value is a function that yields the records of one kind."""

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field instead of the modified field. A step of the method for the modifying "
-    "field is the exact flow of f.",
+    help="Print the modifying field instead of the modified field. If the method is applied to "
+    "the modifying field, one step is the exact flow of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:

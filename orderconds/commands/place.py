@@ -27,7 +27,7 @@ class Place(click.ParamType[str]):
         self.name, self.otherwise = name, otherwise
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return ``value``. Raise click.BadParameter if ``value`` is refused as a name."""
+        """Return ``value``. Raise click.BadParameter if ``value`` is blank or begins with ``--``."""
         if not value.strip():
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
@@ -53,7 +53,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # Write to the target of a symbolic link. If the target is still a link, the links form a loop.
+        # Write to the target of a symbolic link. The path returned here is a link only if links form a loop.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))

@@ -22,7 +22,7 @@ UNKNOWN = (
     type=click.IntRange(*DIGITS),
     default=60,
     show_default=True,
-    help="The number of decimal places.",
+    help="The number of decimal places of the new coefficients.",
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
@@ -35,16 +35,16 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
     If FILE has a [proof] table, solve the equations of this table. Newton's method starts at the rounded
-    decimals of the file, such as "0.8177~". The new file contains more digits, and
-    also the old digits. If there are more decimals than equations, some decimals do not change. In the new
-    file, the list pins contains the names of these decimals.
+    decimals of the file, such as "0.8177~". The table [proof.printed] of the new file contains the original
+    digits. If there are more decimals than equations, some decimals do not change. The list pins of the new
+    file contains the names of the unchanged decimals.
 
     If FILE has no [proof] table, replace binary floats and rounded decimals by nearby fractions or numbers
     p + q sqrt(d), where p, q and d are rational. The order of the method does not change. The suffix of
     the output file determines the format. The format on stdout is TOML.
 
-    Exits with 0 if new coefficients were found. Exits with 1 if no coefficients were found, or if the proof
-    of the coefficients failed. Exits with 2 if the file cannot be read.
+    Exits with 0 if new coefficients were found. Exits with 1 if no new coefficients were found, or if the
+    proof failed. Exits with 2 if the file cannot be read.
 
     \b
     Examples:

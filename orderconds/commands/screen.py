@@ -125,7 +125,7 @@ class _Lines:
         self.total, self.finished, self.begin = total, 0, time.monotonic()
 
     def show(self, text: str) -> None:
-        """Write one line with the elapsed time."""
+        """Write the elapsed time and ``text`` in one line."""
         if current_run().verbose:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 

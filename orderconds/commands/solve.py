@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     type=click.IntRange(*SOLVED_STAGES),
     required=True,
     help="The number of stages. For the family composition: the number of steps of the base method. For the "
-    "family splitting: the number of flows of V.",
+    "family splitting, with the vector field T + V: the number of flows of V.",
 )
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
@@ -97,7 +97,7 @@ if TYPE_CHECKING:
     "--starts",
     type=click.IntRange(*STARTS),
     help="The number of random starts. If the search tries several parametrisations of the coefficients, "
-    "each of them has this number of starts.  "
+    "the search uses this number of starts for each parametrisation.  "
     "[default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
@@ -171,8 +171,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours. Therefore, an invalid name of the new tableau is refused before the search.
     verify_name(options["name"], "--name")
-    # Let p be the requested order. Only the numbers of trees of the orders up to p - 1 are tested here. If p
-    # is even, a symmetric method of order p - 1 also has order p, and the search needs no trees of order p.
+    # Let p be the requested order. If p is even, a symmetric method of order p - 1 also has order p, and
+    # the search needs no trees of order p. Therefore, trees of order p are not counted here.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -245,8 +245,8 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
         _print_proof(order, outcome.none)
     elif outcome.solution is None:
         click.echo(
-            f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
-            f"was found; the least norm of the residuals in all random starts is {outcome.best:.3g}",
+            f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} was "
+            f"found; the least residual norm of the conditions in all random starts is {outcome.best:.3g}",
             err=True,
         )
         for line in outcome.tried:
@@ -273,4 +273,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
     click.echo("if all conditions hold, every product above is zero, and the sum of the products is zero;")
-    click.echo(f"as a polynomial, the sum of the products is {proof.consequence}, but {proof.reason}")
+    click.echo(f"but the sum of the products is the polynomial {proof.consequence}, and {proof.reason}")

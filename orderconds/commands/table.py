@@ -25,7 +25,7 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 @click.option(
     "--write",
     metavar="FILE",
-    help="Replace the table in FILE. Comments in FILE mark the begin and the end of the table.",
+    help="Replace the table in FILE. Comments in FILE mark the beginning and the end of the table.",
 )
 @click.option(
     "--check", "against", metavar="FILE", help="Exit with status 1 if the table in FILE is out of date."
@@ -35,13 +35,13 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
     """Print a table with one line for each tableau of the library. A line contains the claimed orders of
-    the tableau. For the family of the highest order, a line also contains the number of exponentials, the
-    norm of the leading error and the certificate. With --check FILE, the command exits with 1 if the table in
-    FILE is out of date.
+    the tableau. The last three columns concern the family with the highest claimed order: the number of
+    exponentials, the norm of the leading error and the certificate of the order. With --check FILE, the
+    command exits with 1 if the table in FILE is out of date.
 
-    If methods are given, print the order and the Butcher tableau of each method. METHOD is the name of a
-    tableau, or FAMILY:NAME. FAMILY is the family in which the order is computed. A composition of midpoint
-    rules is printed as a Runge-Kutta method.
+    For each given METHOD, print its order and its Butcher tableau. METHOD is the name of a tableau, or
+    FAMILY:NAME. FAMILY is the family in which the order is computed. On a vector space, a commutator-free
+    method or a composition is a Runge-Kutta method. The tableau of this Runge-Kutta method is printed.
 
     \b
     Examples:
@@ -99,7 +99,7 @@ def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
     ``method`` is the name of a tableau, or FAMILY:NAME. FAMILY is the family in which the order is
-    computed. Without FAMILY, the order is computed in the family with the highest claimed order.
+    computed. Without FAMILY, this is the family in which the tableau claims the highest order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -186,10 +186,12 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 def _around(path: str) -> tuple[str, str, str]:
     """Return three texts: the whole file, the part before the table, and the part after the table.
 
-    Raise InputError if the comments that mark the begin and the end of the table are missing.
+    Raise InputError if the comments that enclose the table are missing.
     """
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
-        raise InputError("no comments before and after the table", where=path, expected=f"{BEGIN} and {END}")
+        raise InputError(
+            "cannot find the comments that enclose the table", where=path, expected=f"{BEGIN} and {END}"
+        )
     return text, text[:start], text[end + len(END) :]

@@ -53,7 +53,7 @@ def test_a_file_without_marks_is_bad_usage(tmp_path: Path) -> None:
     (tmp_path / "x.md").write_text("nothing", encoding="utf-8")
     result = run("--write", str(tmp_path / "x.md"))
     assert result.exit_code == 2
-    assert "no comments before and after the table" in result.output
+    assert "cannot find the comments that enclose the table" in result.output
 
 
 def test_a_file_that_cannot_be_read_is_told_before_anything_is_computed(
