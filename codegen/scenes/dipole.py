@@ -51,7 +51,7 @@ figures = [
         name="orders",
         title="Errors for the dipole against the step size",
         caption="The error is |mu - mu_ref| + |g - g_ref| at t = 1/2, with the spectral norm of the matrix.",
-        source="Fig. 3.2 of the thesis",
+        source="Fig. 3.2 of Marthinsen's thesis",
         halvings=5,
         orders=(2, 3, 4, 6),
         runs=(
@@ -83,7 +83,7 @@ figures = [
         name="energy",
         title="Energy error of the dipole over 100 000 steps",
         caption="Steps of size 0.01. Each point is the largest error in 1000 steps.",
-        source="Fig. 3.3 of the thesis",
+        source="Fig. 3.3 of Marthinsen's thesis",
         quantity="energy",
         axis="largest energy error",
         window=1000,

@@ -59,7 +59,7 @@ figures = [
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.3. "
         "Lie-Gauss with h = 0.03 approximates the exact energy.",
-        source="Fig. 4.1a of the thesis",
+        source="Fig. 4.1a of Marthinsen's thesis",
         quantities=both,
         axis="difference from the exact energy",
         difference=True,
@@ -72,7 +72,7 @@ figures = [
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.3, alpha = 0.1, h = 0.6. "
         "Lie-Gauss with h = 0.03 approximates the exact energy.",
-        source="Fig. 4.1b of the thesis",
+        source="Fig. 4.1b of Marthinsen's thesis",
         quantities=both,
         axis="energy",
         reference_label="exact",
@@ -86,7 +86,7 @@ figures = [
         caption="u is the momentum conjugate to the time; −u = H on exact solutions. "
         "eps = 0.1, alpha = 0.123, h = 0.3. "
         "The thesis prints eps = 0.6, but only eps = 0.1 fits its figure.",
-        source="Fig. 4.2 of the thesis",
+        source="Fig. 4.2 of Marthinsen's thesis",
         quantities=both,
         axis="energy",
         runs=(
@@ -100,7 +100,7 @@ figures = [
         name="energy_errors",
         title="Energy errors: the maximum over each group of 500 steps",
         caption="eps = 0.1, alpha = 0.123, h = 0.3. Lie-Gauss with h = 0.02 approximates the exact energy.",
-        source="Fig. 4.3 of the thesis",
+        source="Fig. 4.3 of Marthinsen's thesis",
         quantity=H,
         axis="largest difference from the exact energy",
         window=500,

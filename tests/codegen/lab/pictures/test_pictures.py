@@ -274,7 +274,7 @@ def test_an_unknown_figure_is_an_error_that_lists_the_figures():
 def test_the_listing_names_scene_and_figure():
     assert {
         "name": "heavy_top centre",
-        "about": find(load("heavy_top"), "centre").title + " (Fig. 2.6 of the thesis)",
+        "about": find(load("heavy_top"), "centre").title + " (Fig. 2.6 of Marthinsen's thesis)",
     } in listing()
 
 
