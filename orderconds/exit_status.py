@@ -36,7 +36,7 @@ SIGNALS = ("SIGTERM", "SIGHUP")
 """The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The maximal length of an error's text in the message about an internal error. A longer text is cut."""
+"""The maximal number of characters that a message about an internal error shows of the exception's text."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -48,7 +48,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """An exception that replaces ``cause``, a KeyboardInterrupt or BrokenPipeError."""
+    """The exception that :func:`past_click` raises instead of ``cause``."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -116,8 +116,8 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. If the option ``--json`` is given and this run has printed no JSON
-        document, print the error as JSON, too.
+        """Print the message of an error. With ``--json``, also print ``record`` as JSON, unless this run has
+        already printed a JSON document.
         """
         with contextlib.suppress(OSError):  # A failed output must not change the exit status.
             click.echo(f"orderconds: {record['message']}", err=True)
@@ -167,8 +167,7 @@ def _usage_message(error: click.UsageError) -> str:
 def past_click() -> Iterator[None]:
     """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click catches these two exceptions, but not :class:`Stopped`. Thus, this program chooses the
-    message and the exit status.
+    The library click would handle these two exceptions itself. It does not catch :class:`Stopped`.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -182,14 +181,14 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device. Otherwise, Python reports the closed pipe when it exits."""
+    """Redirect a closed stdout to the null device. Otherwise, Python reports an error when it exits."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Install signal handlers that raise :class:`Terminated`. A second signal of the same kind ends
-    the program at once."""
+    """Install handlers for :data:`SIGNALS` that raise :class:`Terminated`. A second signal of the same kind
+    ends the program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -197,7 +196,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # If the caller ignores a signal, as nohup ignores SIGHUP, the signal remains ignored.
+        # A parent process, such as nohup, may ignore a signal. This program then ignores it, too.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

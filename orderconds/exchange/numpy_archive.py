@@ -2,8 +2,8 @@
 The array ``A_exact`` contains the exact values as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
-The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains
-claims for any family as a text, such as ``rk=4``.
+The array ``order`` contains the claimed order. It refers to the family of the tableau. The array ``claims``
+contains a text with claims such as ``rk=4``. These claims may refer to other families.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ def nearest(text: str, roots: str = "{}") -> float:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Read a tableau from an archive, and return it as the keys and values of a tableau file.
+    """Read a tableau from an ``.npz`` archive, and return a dictionary with the keys of a tableau file.
 
     If the archive contains the doubles ``A`` and the exact values ``A_exact``, the exact values are returned.
     Raises TableauError if an entry of ``A`` is not the double nearest to the exact value.
@@ -138,7 +138,7 @@ def read(content: bytes, where: str) -> Data:
     entries: Arrays = {}
     for name, value in members.items():
         if not isinstance(value, np.ndarray):
-            raise TableauError(f"the member {name} is not an array", where=where, expected="arrays")
+            raise TableauError(f"the file {name} is not an array", where=where, expected="arrays")
         if name.endswith(EXACT) and value.dtype.kind != "U":
             raise TableauError(f"the array {name} has the type {value.dtype}", where=where, expected="texts")
     for name, value in members.items():

@@ -18,7 +18,7 @@ from orderconds.tableau.file_format import Data
 
 
 def execute(path: str | Path) -> Data:
-    """Run a module that assigns the arrays of a tableau. Return the keys and values of a tableau file.
+    """Run a module that assigns a tableau, and return a dictionary with the keys of a tableau file.
 
     Text that the module prints goes to stderr. Raises :class:`~orderconds.errors.TableauError` if the module
     raises an error, ends the program, or assigns values that are not coefficients.

@@ -35,7 +35,7 @@ _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
 def read(content: bytes, where: str) -> Data:
-    """Read a tableau from Python source, and return it as the keys and values of a tableau file.
+    """Read a tableau from Python source, and return a dictionary with the keys of a tableau file.
 
     The source is not executed.
 
@@ -60,8 +60,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module contains no tableau. If the module assigns the arrays of a tableau, return an empty
-    text.
+    """Return the reason to skip a module, or an empty text if the module assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('assigns no arrays of a tableau, such as A and b', '')
@@ -81,9 +80,10 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if no assignment in a module resembles a tableau. Return False for invalid Python source.
+    """Return True if no assignment in a module resembles a tableau.
 
     An assignment to A, a or b resembles a tableau if its right-hand side contains a list or a tuple.
+    Return False for invalid source, because it may contain a tableau.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -144,7 +144,7 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Evaluate one statement at the top level of the module, and store the new values of names.
+    """Evaluate one statement at the top level of the module, and store the new values of its variables.
 
     If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops are not
     evaluated: all variables in a loop become unknown.
@@ -193,8 +193,7 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Return True if the condition of an ``if`` statement contains ``__name__``. The body of such
-    a statement usually runs only in a script."""
+    """Return True for statements like ``if __name__ == "__main__":``. Imports usually skip their bodies."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
@@ -262,7 +261,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return a list of numbers. A matrix with one row or one column is converted to a list of its entries."""
+    """Convert a matrix with one row or one column to a list of numbers. Return other cells unchanged."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

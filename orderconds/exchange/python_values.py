@@ -30,8 +30,8 @@ TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays in which all entries have the same type. In an array of integers, for example, no
 entry can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""If a ``dtype`` contains one of these texts, as ``float32`` and ``int64`` do, the array is not evaluated.
-These types are complex or cannot store all doubles."""
+"""Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
+because the type is complex or cannot store all doubles."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -50,8 +50,8 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """The value of an expression that cannot be evaluated. ``reason`` is the obstacle, such as a call of an
-    unknown function. ``line`` is its line number."""
+    """A placeholder for an unknown value. ``reason`` is the obstacle to the evaluation, such as a call of an
+    unknown function. ``line`` is the line number of the obstacle."""
 
     reason: str
     line: int
@@ -102,8 +102,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name. Do nothing if the name is in ``named``, because a comment in the module
-        already defines this number."""
+        """Assign a value to a name. A name in ``named`` keeps the number that a comment defines."""
         if name not in self.named:
             self.known[name] = value
 
@@ -123,7 +122,7 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Mark the variables ``names`` as unknown, and all variables that share an array with them."""
+        """Mark the variables ``names`` as unknown. A variable with the same array also becomes unknown."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -246,7 +245,7 @@ def _require_doubles(node: ast.Call) -> None:
     """Raise an error if a call has a ``dtype`` such as ``float32`` (:data:`NARROW`)."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
-            raise _NotLiteral(node, "an array whose type is not float64")
+            raise _NotLiteral(node, "a dtype other than float64")
 
 
 def _is_integral(value: Value) -> bool:
@@ -259,8 +258,7 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array and of its rows. The copies have the given attribute ``integral``. A value
-    that is not an array is returned unchanged."""
+    """Copy an array and its rows, and set their attribute ``integral``. Return other values unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
@@ -268,7 +266,7 @@ def _zeros(shape: Value, node: ast.Call) -> Array:
     sizes = shape.items if isinstance(shape, Array) else [shape]
     lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
     if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
-        raise _NotLiteral(node, "a call of zeros whose argument is not one or two integers from 1 to 200")
+        raise _NotLiteral(node, "a call of zeros with a shape other than one or two integers from 1 to 200")
     if len(lengths) == 1:
         return Array([ZERO] * int(lengths[0]))
     return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])
@@ -302,7 +300,7 @@ def rational(x: Expression) -> Fraction | None:
 def texts(value: Value, where: str) -> Cells:
     """Return the text of a number, or nested lists of texts for an array.
 
-    Raise TableauError for an unknown value.
+    Raise TableauError for an expression that could not be evaluated.
 
     >>> texts(Array([Constant(Fraction(1, 2)), ZERO]), "m.py")
     ['0.5', '0']

@@ -25,8 +25,7 @@ class Rows:
 
     @property
     def plainly_other(self) -> bool:
-        """True if the table has a header that does not begin with ``c``. Headers of tableaux begin with
-        ``c``."""
+        """True if the table has a header whose first cell is not ``c``. In a tableau, this cell is ``c``."""
         return bool(self.header) and self.header[0] != "c"
 
 
@@ -37,7 +36,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     may be a header. There are two kinds of headers:
 
     - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
-    - In other tables, all cells are words, such as ``time (s)``. The first cell is not in ``names``.
+    - In other tables, all cells are words, such as ``time (s)``. The first cell is not an array name
+      from ``names``.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
@@ -51,8 +51,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # A line of a quoted cell may begin with #. It is not a comment. Therefore, comments are removed from the
-    # rows and not from the text.
+    # Inside a quoted cell, a line that begins with # is not a comment. Therefore, the rows are filtered, not
+    # the lines of the text.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

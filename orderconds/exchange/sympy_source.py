@@ -85,7 +85,7 @@ def _root(coefficients: list[str], place: int) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Read a tableau from Python source, and return it as the keys and values of a tableau file.
+    """Read a tableau from Python source, and return a dictionary with the keys of a tableau file.
 
     The source is not executed (:mod:`orderconds.exchange.python_source`).
 

@@ -1,8 +1,8 @@
 """Coefficients as unevaluated expressions, for file formats without named numbers.
 
 A tableau file may give a name to a formula and use the name in coefficients. Some file formats cannot store
-such names. In these formats, the formula replaces the name. The resulting expressions are not evaluated,
-because evaluation would lose the digits of rounded decimals. Only operations with 0 and 1 are simplified.
+such names. In these formats, the formula replaces the name. The resulting expressions are not evaluated.
+Thus, rounded decimals keep their digits. Only operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long after formulas have replaced its named numbers."""
+    """The error for a coefficient that becomes too long when formulas replace its named numbers."""
 
 
 class Unevaluated:
@@ -76,7 +76,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """The ring of unevaluated numbers. In a text, ``~`` follows each rounded decimal.
+    """A ring whose elements are expressions. In their texts, ``~`` follows each inexact constant.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -105,18 +105,18 @@ class UnevaluatedNumbers:
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
-        """Return a root of x: the square root for ``index`` 2, the cube root for 3."""
+        """Return the real ``index``-th root of x."""
         return Unevaluated(Power(x.expression, Fraction(1, index)))
 
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Store a root in :attr:`named_roots`, and return its name as an expression."""
+        """Store the root of ``minpoly`` in [near - unit, near + unit]. Return its name as an expression."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, because no limit on the size of numbers applies to unevaluated numbers."""
+        """Return 0, because the limit on the size of evaluated numbers does not apply to expressions."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -139,7 +139,7 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient is too long after formulas have replaced its named numbers",
+                "a coefficient becomes too long when formulas replace its named numbers",
                 expected="format json, which stores named numbers",
             )
         return text
@@ -148,7 +148,7 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return the tableau with unevaluated coefficients.
 
-    The coefficients are the expressions in ``file``. In these expressions, formulas replace named numbers.
+    The coefficients are the expressions in ``file``, with formulas in place of the names of numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'
