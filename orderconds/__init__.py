@@ -1,8 +1,8 @@
 """Derive, prove and compile Lie group integrators.
 
 A method is given by a tableau and a family. The family determines the series of the method. A comparison of
-this series with the exact flow gives the order conditions. This package contains the symbolic computations.
-The package ``codegen`` compiles a method for a scene, the description of one mechanical system.
+this series with the series of the exact flow gives the order conditions. This package contains the symbolic
+computations. The package ``codegen`` compiles a method for a scene, the description of one mechanical system.
 
 Conventions
 -----------
@@ -27,8 +27,9 @@ x}. On SO(3), dexp*_x = dexp_{-x}.
 Hamiltonian H(q, mu) gives f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are derivatives
 with respect to q and mu. The equations of motion are q' = xi.q and mu' = n - ad*_xi mu.
 
-*Symplectic partitioned tableaux.* The second tableau has the weights bhat = b and the entries ahat_ij = b_j -
-b_j a_ji/b_i. This formula requires b_i != 0. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
+*Symplectic partitioned tableaux.* The first tableau has the weights b_i and the entries a_ij. The second
+tableau has the weights bhat_i = b_i and the entries ahat_ij = b_j - b_j a_ji/b_i. This formula requires
+b_i != 0. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
 *Order.* A method has order p when its series agrees with the series of the exact flow through the power h^p.
 A word t_1 ... t_k is a sequence of letters, for example of trees. The letter t_1 acts first.

@@ -15,7 +15,7 @@ Bounds = tuple[int, int]
 CONDITION_ORDER = (1, 20)
 """The least and the largest order whose conditions can be derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The least and the largest number of stages for conditions with expanded sums."""
+"""The least and the largest number of stages if the sums in the conditions are expanded."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
@@ -23,8 +23,7 @@ DIGITS = (10, 1000)
 TOLERANCE = (0, 2**40)
 """The least and the largest value of the argument ``tolerance``.
 
-The tolerance is the uncertainty of coefficients that are doubles. The unit for a coefficient x is
-2^-53 max(1, |x|).
+The tolerance is the uncertainty of each double x, in units of 2^-53 max(1, |x|).
 """
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)

@@ -1,17 +1,17 @@
 """Modified equations of numerical methods.
 
-A method solves the differential equation of a vector field f. One step of the method is the exact flow of
-another field f~, the modified field. The modified field is a series in the step size h:
-f~ = f + h f_2 + h^2 f_3 + ... For a symplectic method, f~ is the vector field of a modified Hamiltonian. The
-method conserves this Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX).
+A method is applied to a vector field f. As a formal series in the step size h, one step of the method is the
+exact flow of the modified field f~ = f + h f_2 + h^2 f_3 + ... If the method is symplectic and f is
+Hamiltonian, f~ is the vector field of a modified Hamiltonian (Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*, Chapter IX).
 
 On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
 fields f_2, f_3, ... are sums of two kinds of terms: elementary differentials along frozen fields, and
 commutators of these differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
-The *modifying* field solves the inverse problem: a step of the method for the modifying field is the exact
-flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007)
-1941).
+The *modifying* field solves the inverse problem: if the method is applied to the modifying field, one step is
+the exact flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76
+(2007) 1941).
 """
 
 from __future__ import annotations
@@ -70,12 +70,12 @@ class Term:
 
 @dataclass(frozen=True)
 class ModifiedEquation:
-    """The modified field of a method, and the modified Hamiltonian if it is known.
+    """The modified or modifying field of a method, and its Hamiltonian if the Hamiltonian is known.
 
     - ``family`` is the label of the method's family.
     - ``terms`` contains the non-zero terms of the field up to the power h^(order - 1) of the step size h.
-    - ``hamiltonian`` contains the terms of the modified Hamiltonian. The value is None if the method has no
-      B-series, or if the field is not proved to be Hamiltonian.
+    - ``hamiltonian`` contains the terms of the Hamiltonian. The value is None if the method has no B-series,
+      or if the field is not proved to be Hamiltonian.
     """
 
     family: str
@@ -179,7 +179,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field`` with the given order, one for each Lyndon word of ordered trees."""
+    """Yield the terms of the given order. Each term belongs to a Lyndon word of ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

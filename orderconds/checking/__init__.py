@@ -1,7 +1,7 @@
 """Compute and certify the order of a tableau in each family in which its file claims an order.
 
-The conditions of order 1, 2, ... are evaluated until a condition fails. A claim fails if the claimed order is
-higher or lower than the computed order.
+The conditions of order 1, 2, ... are evaluated until a condition fails. A claim holds only if the claimed
+order equals the computed order.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
 the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
@@ -12,7 +12,7 @@ that the condition fails. A certificate states how the order was established. Th
   Each coefficient of this method differs from the given decimal by at most one unit of the last digit
   (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
-- ``double``: the digits of coefficients in double precision support the order, but do not prove it.
+- ``double``: the same as ``decimal``, for coefficients in double precision.
 - ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.
 """
 

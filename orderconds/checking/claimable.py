@@ -18,8 +18,8 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    The families on vector spaces come first, then the families on Lie groups. The last families are those
-    that need non-zero weights.
+    Families that need non-zero weights come last. Among the families before them, families on vector spaces
+    come first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

@@ -10,8 +10,8 @@ from orderconds.tableau import Tableau
 def orders_of(tableau: Tableau) -> dict[str, int]:
     """Return the computed orders of a tableau in several families.
 
-    These are the families in which the file of the tableau claims an order, and the claimable families of the
-    tableau (:mod:`orderconds.checking.claimable`).
+    The families are the claimable families of the tableau (:mod:`orderconds.checking.claimable`) and the
+    families in which its file claims an order. The keys of the result are the labels of the families.
 
     >>> orders_of(Tableau.load("cf3"))
     {'rk': 3, 'cf': 3}

@@ -25,7 +25,7 @@ from orderconds.tableau.extension import Extension
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
     """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
-    The conditions are evaluated up to the claimed order plus one.
+    The search ends, at the latest, at the claimed order plus one.
 
     >>> order = extension_order(Tableau.load("rk4"))
     >>> order.order, order.certificate, order.continuous
@@ -51,7 +51,10 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts of :func:`judge` on the conditions of order n, and the conditions that fail."""
+    """Judge the conditions of order n for each power of theta. Return the verdicts and failing conditions.
+
+    The loop ends at the first power with a failing condition.
+    """
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -65,18 +68,17 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition for the coefficients of theta^p in the weights b_i(theta).
+    """Return the order condition for the coefficients of theta^p in the weights b_i(theta).
 
-    ``condition`` is the order condition for the weights b_i of a method. Its tree has n vertices. For the
-    extension, the right-hand side is multiplied by theta^n, so for p != n the result has the right-hand side
-    zero.
+    ``condition`` is the order condition of a tree with n vertices, for constant weights. The right-hand side
+    for the extension is a multiple of theta^n. If p != n, the coefficient of theta^p in it is zero.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 
 
 def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
-    """Return True if, at both ends of a step, the derivative of the extension equals the vector field.
+    """Return True if the derivative of the extension equals the vector field at both ends of a step.
 
     Return None if rounded coefficients do not decide the question.
     """

@@ -3,8 +3,8 @@
 Each coefficient is compared with fractions of small denominator. If no fraction agrees, the coefficient is
 compared with numbers x + y sqrt(d). Here x and y are rational, and d is the same for all coefficients.
 
-Let p be the order of the given method, to the precision of its digits. The exact numbers are accepted if
-exact arithmetic proves that the exact method has at least the order p.
+The digits of the given coefficients support an order p. The exact coefficients are accepted if exact
+arithmetic proves that their method has at least the order p.
 """
 
 from __future__ import annotations
@@ -23,8 +23,10 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""Let q be the denominator of a fraction near a given number, and u the uncertainty of the number. If q^2 u
-exceeds this bound, the fraction is rejected, because it may agree with the number by coincidence.
+"""The bound that rejects fractions which may agree with a number by coincidence.
+
+Let u be the uncertainty of the number, and q the denominator of the fraction. If q^2 u exceeds the bound, the
+fraction is rejected.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
@@ -38,9 +40,9 @@ MAX_SECONDS = 2.0
 class ExactForms:
     """A tableau with exact coefficients.
 
-    - ``tableau`` is the tableau.
-    - ``data`` contains the keys and values of a file of this tableau.
-    - ``texts`` maps the name of each recognised number to its exact value as text.
+    - ``tableau`` is the tableau with exact coefficients.
+    - ``data`` contains the keys and values of a tableau file with exact coefficients.
+    - ``texts`` maps the name of each replaced coefficient to its exact value as text.
     """
 
     tableau: Tableau
@@ -86,7 +88,7 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact value of each number as text.
+    """Map each number to the text of its exact value.
 
     Return None if the numbers are not recognised as elements of a single field Q or Q(sqrt(d)).
     """
@@ -117,7 +119,7 @@ def _fraction(x: Constant) -> Fraction | None:
 
 
 def _bits(x: Constant) -> int:
-    """Return how many binary digits of ``x`` after the point are correct."""
+    """Return the number of correct binary digits of ``x`` after the binary point."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 
@@ -145,9 +147,9 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Replace each number in ``x`` by its exact text, and return the result.
+    """Return ``x`` with each rounded number replaced by the text of its exact value.
 
-    ``x`` is the value of a key in a tableau file. ``texts`` maps numbers to exact texts.
+    ``x`` is the value of a key in a tableau file. ``texts`` maps rounded numbers to their exact values.
     """
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]

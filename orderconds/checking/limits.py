@@ -13,9 +13,9 @@ MAX_CONDITIONS = 50_000
 class Limits:
     """The limits of one check. A limit that is None has no effect.
 
-    - ``conditions``: the number of conditions of each order.
-    - ``seconds``: the time.
-    - ``megabytes``: the memory.
+    - ``conditions``: the largest number of conditions of one order.
+    - ``seconds``: the longest time of the check.
+    - ``megabytes``: the largest memory of the process.
 
     Conditions are evaluated in batches. Time and memory are measured only before each batch, so the check may
     exceed these two limits.
@@ -28,9 +28,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """Counts the conditions that one check evaluates.
-
-    ``stops(n)`` tests whether n further conditions would exceed the limits.
+    """Counts the conditions that one check evaluates, and compares the work with the limits of the check.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -55,8 +53,7 @@ class Meter:
     def stops(self, more: int) -> bool:
         """Return True if the time or the memory exceeds its limit.
 
-        Return True also if ``more`` further conditions of the current order would exceed the limit on
-        conditions.
+        Also return True if ``more`` further conditions of the current order would exceed their limit.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

@@ -24,9 +24,9 @@ from orderconds.tableau import Method, Tableau
 EXHAUSTIVE = 2000
 """If an order has at most this number of conditions, all of them are evaluated.
 
-Otherwise conditions are evaluated in batches until a batch contains a failing condition. The report then
-contains the failing conditions of this batch only. It contains no error norm, because the norm would need the
-residuals of all failing conditions.
+If an order has more conditions, the evaluation ends after the first batch with a failing condition. The
+report contains only the failing conditions of this batch. It contains no error norm, because the norm needs
+the residuals of all failing conditions.
 """
 
 STOPPED = "stopped"
@@ -43,16 +43,17 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    - ``decided`` is False if the coefficients have too few digits to decide the conditions of the next order
-      after ``order``.
-    - ``failing`` are the conditions of order ``order + 1`` that fail.
-    - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
+    - ``order`` is the computed order.
+    - ``decided`` is False if the coefficients have too few digits to decide the conditions of order
+      ``order + 1``.
+    - ``failing`` contains the conditions of order ``order + 1`` that are known to fail.
+    - ``error_norm`` is the 2-norm of the residuals of all failing conditions, or None if it is unknown.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit``: if the search ended at the search limit of the family or at a limit on work, this is the last
-      order whose conditions were all checked. Otherwise the value is None.
-    - ``stopped``: if the search ended at a limit on work (:class:`~orderconds.checking.limits.Limits`), this
-      is the number of evaluated conditions. Otherwise the value is None.
+    - ``limit``: if a limit on the order or on the work ended the search, ``limit`` is the last order whose
+      conditions were all checked. Without such a limit, the value is None.
+    - ``stopped``: if a limit on the work ended the search (:class:`~orderconds.checking.limits.Limits`),
+      ``stopped`` is the number of evaluated conditions. Without such a limit, the value is None.
     """
 
     family: str
@@ -66,8 +67,8 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest absolute residual of the conditions up to order ``order``. The value is None if the
-    coefficients are not doubles."""
+    """The largest absolute residual of the conditions up to the computed order. If the coefficients are not
+    doubles, the value is None."""
 
     def __repr__(self) -> str:
         return (
@@ -133,10 +134,10 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
-    - ``claimed`` and ``required``: the claimed order and the required order, or None. No order is evaluated
-      above the largest of ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
-    - ``bound``: the result for a family whose conditions are a subset of the conditions of ``family``. The
-      order in ``family`` is at most ``bound.order``.
+    - ``claimed`` and ``required``: the claimed order and the required order, or None. The search ends, at
+      the latest, at the largest of the orders ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
+    - ``bound``: the result for another family. The conditions of the other family are also conditions of
+      ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from these
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search stops at ``bound.order``.
@@ -180,8 +181,7 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 class _Search:
     """The search for the order of one method in one family.
 
-    Conditions that follow from other conditions are not evaluated. The object ``spared`` finds these
-    conditions.
+    The search skips conditions that follow from other conditions. ``spared`` finds these conditions.
     """
 
     family: Family
@@ -190,9 +190,9 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest absolute residual of each batch of conditions.
+    """A list with the largest absolute residual of each batch of conditions.
 
-    Batches with a failing condition are omitted. If the coefficients are not doubles, the value is None.
+    Batches with a failing condition are omitted. If the coefficients are not doubles, ``sizes`` is None.
     """
 
     def run(
@@ -225,18 +225,17 @@ class _Search:
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
         """Evaluate the conditions of order n. Return the verdicts, the failing conditions and a flag.
 
-        The flag is true if the failing conditions are complete. ``unlikely`` is true if n exceeds the
-        expected order. Most conditions then probably fail. ``decimal`` is true if the certificate up to order
-        n - 1 is ``decimal``.
+        If the flag is true, all failing conditions of order n are returned. If ``unlikely`` is true, order n
+        exceeds the claimed order, so most conditions probably fail. If ``decimal`` is true, the certificate
+        of order n - 1 is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if a theorem derives it from other conditions that hold exactly. Balls do not
-        # prove that the other conditions hold. If ``decimal`` is true, the order is not proved in any case,
-        # and conditions are skipped with balls, too.
+        # A condition is skipped if it follows from conditions that hold exactly. Balls do not prove that a
+        # condition holds exactly. If ``decimal`` is true, the result is no proof, so the skip is allowed.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

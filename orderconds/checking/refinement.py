@@ -26,7 +26,7 @@ class Refinement:
     - ``pinned`` contains the names of the coefficients whose digits did not change.
     - ``proof`` certifies that the equations have a solution near the new decimals.
 
-    For other files, ``exact`` maps the name of each replaced coefficient to its exact value.
+    Without this table, ``exact`` maps the name of each replaced coefficient to its exact value.
     """
 
     tableau: Tableau
@@ -47,13 +47,15 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    ``tableau`` is a tableau, a file, or a name of the library. If the file has a table ``[proof]`` with
-    equations for the decimals, the new decimals have ``digits`` proved places (10 to 1000). Without this
-    table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with rational p and q.
-    The order of the method does not decrease.
+    ``tableau`` is a tableau, a file, or a name of the library.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if it is not proved that the equations have a
-    solution near the decimals, or if no exact numbers are found.
+    - If the file has a table ``[proof]`` with equations for the decimals, the new decimals have ``digits``
+      proved places (10 to 1000).
+    - Without this table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with
+      rational p and q. The exact method has at least the order of the given method.
+
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution of the equations near the decimals is
+    proved, or if no exact numbers are found.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

@@ -26,14 +26,14 @@ UNCLAIMED = "unclaimed"
 class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method, which estimates the error.
 
-    An embedded method uses the stages of the main method. It has its own weights, or its own update by
+    The embedded method uses the stages of the main method. Its last update has different weights or
     exponentials.
 
-    - ``own`` is the label of the family in which the order is claimed: ``rk`` for a method with weights, and
-      ``cf`` for a method with an update by exponentials.
+    - ``own`` is the label of the family in which the order is claimed: ``rk`` for an update with weights, and
+      ``cf`` for an update with exponentials.
     - ``claimed`` is the claimed order in the family ``own``.
-    - ``orders`` maps the labels of families to computed orders.
-    - ``certificates`` maps the labels of families to the certificates of the computed orders.
+    - ``orders`` maps the labels of families to the computed orders of the embedded method.
+    - ``certificates`` maps the labels of families to the certificates of these orders.
     - ``failing`` contains the failing conditions of order ``orders[own] + 1`` in the family ``own``.
     """
 
@@ -51,11 +51,11 @@ class EmbeddedOrder(Struct, frozen=True):
 class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
-    - ``continuous`` states whether the solution is continuous from one step to the next. In this case, the
-      weights b_i(theta) of the extension satisfy b_i(1) = b_i.
-    - ``smooth`` states whether the first derivative of the solution is continuous.
+    - ``continuous`` states whether the solution is continuous from one step to the next. The solution is
+      continuous if the weights b_i(theta) of the extension satisfy b_i(1) = b_i.
+    - ``smooth`` states whether the first derivative of the solution is continuous, too.
     - ``continuous`` or ``smooth`` is None if the digits of the coefficients do not decide the question.
-    - ``failing`` contains the failing conditions of order ``order + 1``.
+    - ``failing`` contains failing conditions of order ``order + 1``, for one power of theta.
     """
 
     claimed: int
@@ -77,15 +77,16 @@ class ExtensionOrder(Struct, frozen=True):
 
 
 class RegisterForm(Struct, frozen=True):
-    """A scheme with two registers (2N storage) that is equal to a method.
+    """A scheme with two registers K and Y (2N storage) that computes the steps of a method.
 
-    On a group, stage i of the scheme updates the registers K and Y: K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
+    Let F be the vector field. On a group, stage i computes K <- A_i K + F(Y), and then Y <- exp(h B_i K) Y.
+    On a vector space, the second update is Y <- Y + h B_i K.
 
     - ``holds`` states whether the scheme exists. If rounded decimals do not decide the question, the value is
       None.
-    - ``space`` states where the scheme is equal to the method: on a ``group`` or a ``vector space``.
+    - ``space`` is the space of the scheme and the method: ``group`` or ``vector space``.
     - ``A`` and ``B`` are the coefficients A_i and B_i as text.
-    - ``reason`` states why no such scheme exists. If the scheme exists, ``reason`` is empty.
+    - ``reason`` states why no scheme is given. If the scheme exists, ``reason`` is empty.
     """
 
     holds: bool | None

@@ -1,4 +1,4 @@
-"""The HTML text of a report in a notebook: a table of orders, and the first failing conditions."""
+"""The HTML text of a report in a notebook: a table of orders, and one failing condition for each family."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """Yield one line about the failing conditions. Yield nothing if no condition fails."""
+    """Yield one line about the first failing condition. Yield nothing if no condition fails."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"the first of {count} failing conditions" if count > 1 else "a failing condition"

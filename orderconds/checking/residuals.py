@@ -1,8 +1,8 @@
 """The residuals of the conditions of one order, and a verdict on each residual.
 
-In a number field, ball arithmetic is much cheaper than exact arithmetic. A ball that does not contain zero
-proves that a residual is not zero. Exact arithmetic is used for residuals whose balls contain zero, and for
-residuals that are printed.
+A ball is an approximate value with an error bound. If a ball contains a residual but not zero, the residual
+is not zero. In a number field, balls are much cheaper than exact arithmetic. An exact residual is computed if
+the ball contains zero, or if the residual is printed.
 """
 
 from __future__ import annotations
@@ -30,11 +30,14 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""The residual of a condition of order n may be a ball that contains zero. If the radius of this ball is at
-most RESOLUTION/n!, the verdict is ``supported``."""
+"""The bound that distinguishes the verdicts ``supported`` and ``undecided``.
+
+Suppose that the residual of a condition of order n is a ball that contains zero. If the radius of this ball
+is at most RESOLUTION/n!, the verdict is ``supported``.
+"""
 
 BITS = 256
-"""The precision of the balls in bits."""
+"""The precision, in bits, of the balls that contain elements of a number field."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -43,9 +46,7 @@ ROUNDED = Context(prec=DIGITS)
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A condition that does not hold. The function ``exact`` returns the residual of the condition
-    as an element of ``ring``.
-    """
+    """A condition that does not hold. The function ``exact`` returns the residual, an element of ``ring``."""
 
     condition: OrderCondition
     ring: Ring = field(repr=False)
@@ -65,12 +66,12 @@ class Failure:
 
     @cached_property
     def decimal(self) -> str:
-        """The residual to 20 digits."""
+        """The residual as text with 20 digits."""
         return self.ring.approximate(self.value, DIGITS)
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual, with its sign, as a decimal number of 20 digits."""
+        """The residual (not its absolute value) as a decimal number of 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -114,9 +115,9 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true, ball arithmetic is used before exact arithmetic. This choice is faster if most
-    conditions fail. If the residuals are balls and no condition fails, the largest absolute residual is
-    appended to the list ``sizes``.
+    If ``balls_first`` is true and ``ring`` is a number field, residuals are first enclosed in balls. This is
+    faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the largest
+    absolute residual is appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -171,7 +172,7 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if rational numbers suffice to compute exact residuals.
+    """Return True if exact residuals need only rational numbers (:mod:`orderconds.ring.nodal`).
 
     The coefficients of the method are elements of the number field ``ring``.
     """
@@ -181,8 +182,10 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request. The first request computes one residual. The second
-    request computes all other residuals together."""
+    """Computes the exact residuals of ``conditions`` on request.
+
+    The first request computes one residual. The second request computes all other residuals.
+    """
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
@@ -217,6 +220,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # In other rings, ``is_zero`` returns True or False.
+    assert isinstance(ring, Balls)  # In other rings, ``is_zero`` never returns None.
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"
