@@ -183,7 +183,7 @@ class Program(click.Group):
 def _offered() -> Iterable[EntryPoint]:
     """Return the entry points by which other packages provide commands.
 
-    This function imports ``importlib.metadata`` itself, because the import is slow.
+    ``importlib.metadata`` is imported inside this function, because the import is slow.
     """
     from importlib import metadata
 
@@ -264,7 +264,7 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program with the arguments of the command line.
 
-    A command uses most of its objects until the end. Therefore Python is set to collect garbage less often.
+    A command creates little garbage, so Python collects garbage less often.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

@@ -1,10 +1,10 @@
 """The order to which a method is symmetric. It is computed from the composition of two steps: a step of size
 h, then a step of size -h.
 
-For a symmetric method, the composition is the identity. For every other method, there is a largest number q
-such that the composition differs from the identity by O(h^(q + 1)). The method is then called symmetric to
-order q. The number q is always odd, and not smaller than the order p of the method. If q is larger than
-p + 1, the method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+For a symmetric method, the composition is the identity. Another method is symmetric to order q if the
+composition differs from the identity by O(h^(q + 1)). The largest such q is odd and not smaller than the
+order p of the method. If this q is larger than p + 1, the method is called effectively symmetric (Shmelev,
+Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest number of vertices in the test of symmetry. For Runge-Kutta methods, the test uses rooted trees
+"""The sizes of the largest trees in the test of symmetry. For Runge-Kutta methods, the test uses rooted trees
 with at most MOST_ROOTED vertices. For commutator-free methods, it uses forests of ordered trees with at most
 MOST_ORDERED vertices."""
 
@@ -33,8 +33,8 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
     Return None for other methods. The result is valid on vector spaces for Runge-Kutta methods, and on groups
     for commutator-free methods.
 
-    ``symmetric`` is True if the method is known to be symmetric. In this case, the field ``order`` of the
-    result is None.
+    ``symmetric`` is True if the method is known to be symmetric. The field ``order`` of the result is then
+    None, because the method is symmetric to every order.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -57,10 +57,10 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return the label of the family, the series of one step, a function ``trees`` and the largest n.
+    """Return the label of the family, the series of one step, a function ``trees`` and a number N.
 
-    ``trees(n)`` yields the trees or forests with n vertices. The series is tested up to the largest n. Return
-    None if the tableau is neither a Runge-Kutta method nor commutator-free.
+    ``trees(n)`` yields the trees or forests with n vertices. The test of symmetry uses n <= N. Return None if
+    the method is neither a Runge-Kutta method nor commutator-free.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

@@ -46,9 +46,9 @@ def check(
     - ``tableau``: a tableau, a file, or a name of the library.
     - ``family``: check only this family, such as ``"vcg"`` or ``"rkmk(1)"``. A claim is not necessary.
     - ``order``: the least acceptable order. If ``order`` is given, the claimed orders are ignored.
-    - ``complete``: the file must claim an order in each family of ``claimable_families``.
+    - ``complete``: the file must claim an order in each family of ``claimable_families(tableau)``.
     - ``certified``: every order must be proved.
-    - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
+    - ``limits``: limits on work, time and memory. If a limit is reached, the computed order is a lower bound.
     - ``tolerance``: the uncertainty of each double x, in units of 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
@@ -115,10 +115,7 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Check the three arguments, and return the order and the tolerance as numbers.
-
-    Raise InputError if an argument has a wrong type or a wrong value.
-    """
+    """Return ``order`` and ``tolerance`` as numbers. Raise InputError if an argument is not valid."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -128,7 +125,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Replace the certificate ``decimal`` by ``double`` if the coefficients of ``tableau`` are doubles."""
+    """If the coefficients of ``tableau`` are doubles, replace the certificate ``decimal`` by ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -139,9 +136,9 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence that proposes exact numbers instead of the doubles of a tableau.
+    """Return a hint that the doubles of a tableau agree with exact numbers.
 
-    Return an empty text if no exact numbers are found, or if a claimed or required order is wrong.
+    Return an empty text if no exact numbers are found, or if a verdict is ``fails``.
     """
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
@@ -152,8 +149,8 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
         return ""
     name, text = max(forms.texts.items(), key=lambda form: ("sqrt" in form[1], -len(form[1])))
     return (
-        f"the decimals agree with exact numbers, such as {name} = {text}; to write the exact numbers, type: "
-        "orderconds refine FILE"
+        f"the coefficients agree with exact numbers, such as {name} = {text}; "
+        "to print the exact numbers, type: orderconds refine FILE"
     )
 
 
@@ -183,10 +180,9 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return a proof about the decimals of the file, and a list of error messages.
+    """Prove that the equations in the table ``[proof]`` have a solution near the decimals of the file.
 
-    The table ``[proof]`` of the file contains equations for the decimals. The proof states that the equations
-    have an exact solution near the decimals. Return (None, []) if the file has no such table.
+    Return the proof and a list of error messages. Return (None, []) if the file has no such table.
     """
     if tableau.proof is None:
         return None, []
@@ -197,7 +193,7 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
         proof = certify(tableau)
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
-    hint = "to write the correct digits, type: orderconds refine FILE"
+    hint = "to print the correct digits, type: orderconds refine FILE"
     return proof, [f"the decimal {misrounded}; {hint}" for misrounded in proof.misrounded]
 
 
@@ -234,10 +230,10 @@ order is None.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families whose orders may imply orders in the families ``wanted``.
+    """Return additional families. Their orders can bound the orders in the families ``wanted``.
 
-    The orders in the additional families are computed before those in ``wanted``. Return an empty list if
-    each claimed or required order is below the search limit of its family.
+    Return an empty list if each claimed or required order is below the search limit of its family. A search
+    is then sufficient.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -245,10 +241,10 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families whose orders imply bounds of the orders in other families.
+    """Return families whose orders bound the orders in other families.
 
-    Families with a label in ``labels`` are omitted. Some Runge-Kutta methods are compositions of midpoint
-    rules. For these methods, families of compositions are included.
+    Omit families with a label in ``labels``. If a Runge-Kutta method is a composition of midpoint rules,
+    include families of composition methods.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -264,9 +260,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine an order by theorems, after a search for this order reached a limit.
+    """Derive the order in ``family`` from orders in other families, after a search reached a limit.
 
-    ``ended`` is the result of the search. Return ``ended`` if no theorem determines the order.
+    ``ended`` is the result of the search. Return ``ended`` if the order cannot be derived.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -282,10 +278,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the smallest computed order that is an upper bound of the order in ``family``.
+    """Return the smallest upper bound of the order in ``family`` among orders in other families.
 
-    The order in a family G is an upper bound if every condition of G is also a condition of ``family``.
-    Return None if no computed order is an upper bound.
+    If order n in ``family`` implies order n in a family G, the order in G is an upper bound.
+    Return None if ``computed`` contains no upper bound.
     """
     if not computed:
         return None
@@ -309,9 +305,10 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return the order in ``family`` that the orders in other families imply.
+    """Derive the order in ``family`` from the orders in other families.
 
-    Return None if the orders in other families imply no order of at least ``family.search_limit``.
+    Return None if no order follows, or if the order is below ``family.search_limit``. A search finds such a
+    low order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -341,11 +338,10 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Replace the certificate ``decimal`` by ``ball`` if the order follows from ``facts``. Otherwise, return
-    ``computed`` unchanged.
+    """If ``facts`` proves the order, replace the certificate ``decimal`` (not proved) by ``ball`` (proved).
 
-    ``facts`` contains pairs (family, order): the orders that follow from the equations in the table
-    ``[proof]`` of the tableau file.
+    ``facts`` contains pairs (family, order). These orders follow from the equations in the table ``[proof]``
+    of the tableau file.
     """
     if computed.certificate != "decimal" or not facts:
         return computed
@@ -372,10 +368,10 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with the claimed order or None.
+    """Yield pairs (family to check, claimed order). Without a claim, the order is None.
 
     If ``family`` is given, yield only this family. If ``family`` is None, yield all families with a claim. If
-    the tableau has no claims, yield the family of its format.
+    no family has a claim, yield the family of the tableau's format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
@@ -423,7 +419,10 @@ def _broken_claims(
     if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
-        yield f"the embedded method has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
+        yield (
+            f"the embedded method has order {order} ({embedded.own}), "
+            f"not {embedded.claimed} as claimed{reason}"
+        )
 
 
 def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
@@ -432,7 +431,7 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
         return
     if dense.order != dense.claimed:
         reason = f"; {dense.failing[0]}" if dense.failing else ""
-        yield f"the continuous extension has order {dense.order} (rk), claimed {dense.claimed}{reason}"
+        yield f"the continuous extension has order {dense.order} (rk), not {dense.claimed} as claimed{reason}"
     if dense.continuous is False:
         yield "the continuous extension does not end at the new state: some b_i(1) differs from b_i"
 
@@ -440,9 +439,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``tableau`` is the tableau of the file. The orders in the messages are the orders of ``enclosed``. If the
-    decimals are proved to approximate an exact method, the coefficients of ``enclosed`` are balls (intervals)
-    that contain the exact coefficients. Without a proof, ``enclosed`` is ``tableau``.
+    ``tableau`` is the tableau of the file. The order in the message is computed from ``enclosed``. If a proof
+    exists, the coefficients of ``enclosed`` are balls (intervals) that contain the exact coefficients.
+    Without a proof, ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -1,3 +1,3 @@
-"""The commands of ``orderconds``. The module of a command defines the click command under the name
-``command``. It returns the exit status.
+"""The commands of ``orderconds``. The module of a command defines a click command named ``command``,
+which returns the exit status.
 """

@@ -30,13 +30,13 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The largest number of failing conditions, and of files of other formats, in the text output."""
+"""At most this number of failing conditions is printed, and at most this number of skipped names."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest number of characters of a coefficient A_i or B_i. Longer coefficients are shortened."""
+"""The largest number of characters of a coefficient of a 2N scheme. Longer coefficients are shortened."""
 
 WIDTH = 200
 """The largest number of characters of a formula or a residual. Longer texts are shortened."""
@@ -64,8 +64,8 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claim in every family to which the method belongs. No claim is needed if the order in "
-    "another family implies this order.",
+    help="Require a claim in every family to which the method belongs. A family needs no claim if its "
+    "order follows from the order in another family.",
 )
 @click.option(
     "--certified",
@@ -133,8 +133,8 @@ def command(
     NPZ, Python, LaTeX or C) or by its name in the library.
 
     A file can claim an order, for example with the line `order = 4`. The line `rk = 4` in its table `claims`
-    claims an order in one family. A claimed order must equal the computed order. If a limit ends the
-    computation, the computed order is a lower bound.
+    claims an order in one family. A claimed order must equal the computed order. If a limit, such
+    as --max-seconds, ends the computation, the computed order is a lower bound.
 
     If a directory is given, all tableau files below it are checked, and other files are skipped. With
     --require-claims, files that resemble a tableau are not skipped.
@@ -186,7 +186,7 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau. Tableaux that are listed in a file ``DECIMAL`` need no proof."""
+    """Return one job for each tableau. If a file ``DECIMAL`` lists a tableau, its orders need no proof."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -217,7 +217,7 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
     """Disable garbage collection if there is only one job.
 
-    A check uses most of its objects until the end, so garbage collection would free little memory.
+    A single check creates little garbage.
     """
     collects = gc.isenabled()
     if len(jobs) == 1:
@@ -246,14 +246,14 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict and the text to print. The verdict is None if the file cannot be read."""
+    """A verdict and the text to print. If the check fails with an InputError, the verdict is None."""
 
     verdict: str | None
     text: str
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. If its file cannot be read, the outcome contains the error message."""
+    """Check one tableau. If an InputError occurs, the outcome contains its message."""
     from orderconds.checking import check, read
 
     try:
@@ -301,8 +301,8 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
     Other files in a directory are skipped, and their names are written to stderr. If ``skip_others`` is true,
-    files that are given as arguments are skipped by the same rule. If ``strict`` is true, files that resemble
-    a tableau are not skipped.
+    arguments that are files without a tableau are skipped, too. If ``strict`` is true, files that resemble a
+    tableau are not skipped.
     """
     for argument in arguments:
         if not argument.strip():
@@ -327,7 +327,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} hidden folders or files of other formats: {shown}", err=True
+                f"skipped {len(below.others)} hidden folders and files of other formats: {shown}", err=True
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -365,8 +365,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            "  effectively symmetric: a step of -h undoes a step of h with an error of higher order than "
-            f"h^{report.effective_symmetry}"
+            "  effectively symmetric: a step of h and then a step of -h return to the start, "
+            f"up to terms of higher order than h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]
@@ -409,7 +409,10 @@ def _count(n: int, what: str) -> str:
 
 def _proof(proof: Certificate) -> str:
     """Return one line that states what the proof of a tableau file shows."""
-    text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
+    text = (
+        f"the {proof.equations} equations from [proof] have exactly one solution "
+        f"within {proof.radius} of the decimals"
+    )
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)

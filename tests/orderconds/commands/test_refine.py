@@ -28,7 +28,7 @@ def of_floats(name: str, path: Path) -> Path:
 def test_the_exact_tableau_of_floats_is_written_and_proved(name: str, tmp_path: Path) -> None:
     source, target = of_floats(name, tmp_path / "m.json"), tmp_path / "exact.toml"
     assert check(source).orders[0].certificate == "double"
-    assert "to write the exact numbers, type: orderconds refine FILE" in check(source).hint
+    assert "to print the exact numbers, type: orderconds refine FILE" in check(source).hint
     result = CliRunner().invoke(program, ["refine", str(source), "-o", str(target)])
     assert (result.exit_code, result.output) == (0, "")
     report = check(target, certified=True)
