@@ -73,8 +73,8 @@ class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
     The command ``figure`` selects a figure by its name. ``source`` is the published figure that is
-    reproduced, such as "Fig. 2.6 of Marthinsen's thesis". ``reference`` is a run with which the other runs are
-    compared, or which is drawn as a thin line. Some kinds of figures do not use ``reference``.
+    reproduced, such as "Fig. 2.6 of Marthinsen's thesis". ``reference`` is a run with which the other runs
+    are compared, or which is drawn as a thin line. Some kinds of figures do not use ``reference``.
     ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
