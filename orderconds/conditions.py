@@ -31,11 +31,12 @@ class OrderCondition:
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.
     - ``tree`` is the text of a tree or word.
-    - ``source`` is the formula of the left-hand side, or a function that returns the formula.
+    - ``source`` is the left-hand side, or a function that returns the left-hand side. The attribute
+      ``formula`` is the same formula with readable index names.
     - ``key`` is the tree in the internal encoding of the family.
-    - ``relation`` is the text of a polynomial, or None for an independent condition. The polynomial expresses
-      the left-hand side of a dependent condition in the left-hand sides of other conditions. An example is
-      ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` is the left-hand side of the condition for the tree x.
+    - ``relation`` is None for an independent condition. For a dependent condition, ``relation`` is the text
+      of a polynomial that equals the left-hand side, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` is
+      the left-hand side of the condition of the tree x.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

@@ -35,7 +35,7 @@ class Derivation:
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """The number of conditions of each order 1, ..., ``order``."""
+        """The numbers of conditions of the orders 1, ..., ``order``."""
         return tuple(map(len, self.by_order))
 
     @property
@@ -108,7 +108,7 @@ def derive(
     :class:`~orderconds.errors.InputError` in these cases:
 
     - The order is not an integer from 1 to 20.
-    - There are too many trees of ``order`` or of a lower order.
+    - The family has more than 7000 trees of one order between 1 and ``order``.
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.

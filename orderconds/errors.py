@@ -10,7 +10,7 @@ class InputError(Exception):
     """The error for invalid input, and for the wrong use of a command.
 
     ``found`` describes the problem, ``where`` is the file, key or option, ``expected`` describes valid
-    input, and ``hint`` is a suggestion. The message contains the texts that are not empty.
+    input, and ``hint`` is a suggestion. The message omits empty texts.
     """
 
     def __init__(self, found: str, *, where: str = "", expected: str = "", hint: str = "") -> None:

@@ -18,11 +18,13 @@ if TYPE_CHECKING:
 @click.command(name="trees")
 @click.argument("kind")
 @click.option(
-    "--order", "-p", type=click.IntRange(*TREE_ORDER), required=True, help="The number of vertices."
+    "--order",
+    "-p",
+    type=click.IntRange(*TREE_ORDER),
+    required=True,
+    help="The number of vertices, or the weight of a word.",
 )
-@click.option(
-    "--count", is_flag=True, help="Print only the number of trees. It is computed from a generating function."
-)
+@click.option("--count", is_flag=True, help="Print only the number of trees or words.")
 @click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
@@ -35,7 +37,7 @@ if TYPE_CHECKING:
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
 ) -> int:
-    """Enumerate the trees of one KIND with a given number of vertices.
+    """Enumerate the trees or words of one KIND and a given order.
 
     \b
     rooted       rooted trees, unordered                       rk
@@ -47,7 +49,7 @@ def command(
     essential    free trees without two equal halves           symplectic_rk
     directed     free trees whose edges have a direction       sprk
     directed-rooted  rooted trees with directed edges          prk_same_weights
-    alternating  free trees whose neighbours differ in colour  sprk_separable
+    alternating  free trees; an edge joins different colours   sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
     graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
@@ -55,10 +57,11 @@ def command(
     The order conditions of the families in the last column are indexed by these trees. A tree has two equal
     halves if the removal of one edge leaves two equal trees.
 
-    In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom. The
-    letter q denotes the position. The momentum is p, or mu on a Lie group. A directed edge leads from a
-    derivative in q to a derivative in the momentum. A diamond (in text drawings: an L) is a coadjoint action
-    on mu.
+    In text drawings, the root is in the first line. In pictures (--svg), the root is at the bottom.
+
+    The letter q denotes the position. The momentum is p, or mu on a Lie group. A directed edge begins at a
+    derivative of the Hamiltonian in q and ends at a derivative in the momentum. A diamond (in text drawings:
+    an L) denotes a coadjoint action on mu. Directed edges begin there, too.
 
     A note such as (>*>) after a vertex lists the edges at this vertex from left to right. The sign > is an
     edge to a child. The sign * is the edge to the parent.
@@ -75,7 +78,7 @@ def command(
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count prints only a number; omit --draw and --explain")
     if not count or svg is not None:
-        members = trees(kind, order)  # An order with too many trees is refused.
+        members = trees(kind, order)  # Raises an error for an order with too many trees.
     if svg is not None:
         put(svg, members.svg(explain=explain).encode())
     if as_json:

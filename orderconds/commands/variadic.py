@@ -1,8 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
-This module is for options that may be repeated. After the first argument of a :class:`Variadic` command, such
-an option may have several values: ``bench dipole --method cf4 rkmk:rk4``. Before the first argument, the
-option has only one value. In ``bench --method cf4 dipole``, the word ``dipole`` is the argument.
+After the first argument of a :class:`Variadic` command, a repeatable option accepts several values, as in
+``bench dipole --method cf4 rkmk:rk4``. Before the first argument, a repeatable option accepts one value. In
+``bench --method cf4 dipole``, the word ``dipole`` is the argument.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-An imported file is executed as code only at the user's request. If a method is exported and imported again,
-its coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
+A Python file is executed only at the user's request. If a method is exported and imported again, its
+coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
 file. The other formats omit the table ``[proof]``.
 
 A number from another program is a double, a rounded decimal or exact:
@@ -42,7 +42,8 @@ def export(data: Data, to: str) -> bytes:
     """Return a tableau as the content of a file in the format ``to``.
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent. This function reads the content again to verify that the tableau is the same.
+    cannot represent. To find such a method, this function reads the content back and
+    compares the result with ``data``.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']

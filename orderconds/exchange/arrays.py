@@ -37,14 +37,14 @@ Arrays = Data
 """A map from names to values. A value is a text, a vector of coefficients or a matrix of coefficients."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a tableau file that are stored as JSON text."""
+"""Tables of a tableau file. The arrays contain these tables as JSON text."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""In a file of another program, a decimal with at least 12 significant digits is rounded or a double.
+"""An imported decimal with at least this number of significant digits is rounded or a double.
 
-A shorter decimal, such as 0.5, is exact.
+A shorter decimal, such as 0.5, is exact. See :func:`coefficient`.
 """
 
 
@@ -86,10 +86,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return a tableau as keys and values, with formulas in place of the names of numbers.
+    """Return a tableau as keys and values. The formula of a named number replaces the name.
 
-    A root keeps its name if the tableau defines it by a polynomial (``minpoly``). Fractions are in lowest
-    terms. Rounded coefficients have the same digits as in the file of the tableau.
+    A number that the tableau defines as a root of a polynomial (``minpoly``) keeps its name. Fractions are in
+    lowest terms. Rounded coefficients have the same digits as in the file of the tableau.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -241,7 +241,7 @@ def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
     The first row of ``weights`` is b. A second row contains embedded weights. A blank cell is zero. If a row
-    has more coefficients than the method has stages, blank cells at its end are removed.
+    has more cells than the method has stages, blank cells at the end of the row are removed.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]
@@ -266,10 +266,10 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a number from another program's file as the text of a coefficient, without exponent.
+    """Convert a number from another program's file to a coefficient of a tableau file.
 
-    If a decimal was probably printed from a double, the result is this double (see
-    :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
+    A decimal loses its exponent. If the decimal was probably printed from a double, the result is this double
+    (see :func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
     become rounded decimals (suffix ``~``).
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]

@@ -1,7 +1,7 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains the exact value.
 
-The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a number has
-such a comment, the result contains the exact value.
+The function ``read`` reads definitions such as ``double NAME_A[2][2] = {{0, 0}, {0.5, 0}};``. If a
+comment beside a number contains the exact value, ``read`` returns the exact value.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _TOKEN = re.compile(r"/\*|//|[{}\"]")
 
 
 def write(data: Data) -> bytes:
-    """Return the arrays as C definitions. The name of every array begins with the name of the tableau.
+    """Return a tableau as definitions of C arrays. The array names begin with the name of the tableau.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     static const double m_b[1] = {1.0};
@@ -119,7 +119,10 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the end of a comment or string. Raise TableauError if the comment or string is not closed."""
+    """Return the index after a comment or string.
+
+    Raise TableauError if ``*/`` or the closing quotation mark is missing.
+    """
     if token[0] == "//":
         end = text.find("\n", token.end())
         return len(text) if end < 0 else end

@@ -38,7 +38,7 @@ def claims_from(text: str, where: str) -> Data:
 
 
 def json_table(text: str, where: str) -> Data:
-    """Return the object in a JSON text as a dictionary. Raise TableauError for any other text.
+    """Return a JSON object as a dictionary. Raise TableauError if the text is not a JSON object.
 
     >>> json_table('{"rk": 4}', "claims")
     {'rk': 4}

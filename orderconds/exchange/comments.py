@@ -1,7 +1,7 @@
 """Write the texts of a tableau, such as its name, as comments of source files. A comment is one line.
 
-A backslash is doubled. A line break or a control character becomes its code, such as ``\\u000a``. The
-delimiters of C comments become ``*\\/`` and ``\\/*``.
+A backslash is doubled. A line break or a control character becomes its Unicode code, such as ``\\u000a``.
+The delimiters of C comments become ``*\\/`` and ``\\/*``.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return a copy of ``data``. In lists and tables, floats replace integers and decimals that are texts."""
+    """Return a copy of ``data``. In lists and tables, texts of integers and decimals become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -33,9 +33,9 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names that may be in the first cell of a line of a CSV file."""
+"""The names that the first cell of a CSV line can contain."""
 WEIGHTS = ("b", "embedded_b")
-"""Names that may replace the empty first cell of a line of weights in a plain Butcher tableau."""
+"""In a plain Butcher tableau, a line of weights begins with one of these names or with an empty cell."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -92,8 +92,8 @@ def _repeated(name: str, where: str) -> TableauError:
 def _is_plain(table: Table) -> bool:
     """Return True if a CSV table is a plain Butcher tableau.
 
-    In a plain tableau, no row begins with the name of a matrix. At least one row begins with a number, an
-    empty cell or another text that is not in ``NAMES``.
+    In a plain tableau, no row begins with the name of a matrix. The first cell of at least one row is not in
+    ``NAMES``. Examples are a number and an empty cell.
     """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)

@@ -35,8 +35,8 @@ _LATEX = re.compile(
 class Folder:
     """The files below a folder.
 
-    ``tableaux`` contains the paths of the tableaux. ``skipped`` contains a pair (path, reason) for each
-    skipped file.
+    ``tableaux`` contains the paths of the tableau files. ``skipped`` contains a pair (path, reason) for each
+    file that :func:`reason_to_skip` rejects.
     """
 
     tableaux: list[str] = field(default_factory=list)
@@ -48,8 +48,7 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, the tableaux include files that only resemble a tableau
-    (see :func:`reason_to_skip`).
+    If ``strict`` is true, files that resemble a tableau count as tableaux (see :func:`reason_to_skip`).
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -92,9 +91,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, so that the user sees the error. Some files resemble a tableau but contain
-    none of its names, such as a JSON file with a matrix under an unknown key. These files are skipped by
-    default. If ``strict`` is true, they must be read.
+    A damaged file must be read, because reading it shows the error to the user. Some files resemble a tableau
+    but contain no key of a tableau, such as a JSON file with a matrix under an unknown key. By default, the
+    result is a reason to skip these files. If ``strict`` is true, these files must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

@@ -109,7 +109,7 @@ def _texts(text: str) -> Arrays:
 
 
 def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
-    """Yield (None, body) for each Butcher array, and (name, body) for each matrix."""
+    """Yield (None, source of the rows) for a Butcher tableau, and (name, source of the rows) for a matrix."""
     opened: re.Match[str] | None = None
     for token in _ENVIRONMENT.finditer(text):
         if token[1] == "begin":

@@ -30,9 +30,9 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, in parentheses if the larger expression around x requires them.
 
-    ``tight`` depends on the place of x in the larger expression. For the first factor of a product, and after
-    a minus sign, ``tight`` is 1. For other factors and divisors, ``tight`` is 2. Elsewhere, ``tight`` is 0.
-    Parentheses enclose a sum if ``tight`` is 1 or 2, and a product if ``tight`` is 2.
+    ``tight`` is 1 for the first factor of a product and after a minus sign, 2 for other factors and for
+    divisors, and 0 elsewhere. A sum needs parentheses if ``tight`` is 1 or 2. A product needs parentheses if
+    ``tight`` is 2.
     """
     if isinstance(x, Constant):
         if x.is_double:
