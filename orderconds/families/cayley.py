@@ -1,16 +1,17 @@
-"""Cayley methods for Y' = A(t) Y on quadratic groups. One step is the Cayley transform of an element Omega.
+"""Cayley methods for Y' = A(t) Y on quadratic groups. One step is Y_1 = cay(Omega) Y_0.
 
-The step is Y_1 = cay(Omega) Y_0, where cay(x) = (1 - x/2)^-1 (1 + x/2).
+The Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2). If a step is a product of several Cayley transforms,
+cay(Omega) is this product.
 
-Omega is a sum of brackets and of sums such as A_i A_j A_k + A_k A_j A_i. Here A_i = h A(c_i h), and c_i are
-the nodes. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P defines the quadratic
-group.
+Omega is a linear combination of the values A_i = h A(c_i h) at the nodes c_i, of commutators such as
+A_i A_j - A_j A_i, and of sums such as A_i A_j A_k + A_k A_j A_i. The matrix P of the quadratic group defines
+the Lie algebra {X: X^T P + P X = 0}. If A(t) is in this algebra for all t, Omega is in it, too.
 
-The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... Consider a word with n letters and the
-reversed word. Their coefficients in Omega differ by the factor (-1)^(n+1). Therefore their conditions are
-equivalent, and one of the two conditions is kept. If a word is equal to the reversed word and n is even, its
-coefficient is zero. This word has no condition (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and
-Peluso, Adv. Comput. Math. 8 (1998) 317).
+The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... Reversing the n letters of a word multiplies
+its coefficient in Omega by (-1)^(n+1). Therefore a word and its reverse have equivalent conditions, and only
+one of these conditions is kept. If n is even and a word equals its reverse, its coefficient is zero. The
+condition of this word is omitted (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
+Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -35,10 +36,10 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods: a step is a Cayley transform cay(Omega) or a product of Cayley transforms.
+    """Cayley methods: a step is a Cayley transform or a product of Cayley transforms.
 
-    In printed conditions, omega_ij is the coefficient of A_j A_i in Omega, and omega_ijk is the coefficient
-    of A_k A_j A_i.
+    The step is equal to cay(Omega). In printed conditions, omega_ij is the coefficient of A_j A_i in Omega,
+    and omega_ijk is the coefficient of A_k A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -58,8 +59,8 @@ class CayleyFamily(MagnusFamily):
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the words of weight ``order`` whose conditions are independent.
 
-        If a word differs from the reversed word, the result contains the smaller one of the two words. A word
-        that is equal to the reversed word is in the result if its length is odd.
+        A word is in the result if it is smaller than its reverse in lexicographic order. A word that equals
+        its reverse is in the result if its length is odd.
         """
         return tuple(
             word
@@ -68,13 +69,13 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in Omega, where cay(Omega) is the exact flow."""
+        """Return the coefficient of a word in the Cayley expansion Omega of the exact flow cay(Omega)."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
         """Return the coefficient of a word in Omega as a polynomial in the coefficients of independent words.
 
-        The polynomial is zero or has one linear term. See :meth:`independent` for the independent words.
+        The polynomial is zero or, up to the sign, one such coefficient (see :meth:`independent`).
         """
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}

@@ -2,12 +2,12 @@
 
 Each exponent is a linear combination of the values k_j of the vector field at the stages. The update with m
 exponentials is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the rightmost exponential acts
-first. Stage i has the same form, with the coefficients alpha_iJj instead of beta_Jj (Celledoni, Marthinsen
-and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage, its product also
-contains the exponentials of the earlier stage.
+first. Stage i has the same form, with the coefficients alpha_iIj instead of beta_Ij (Celledoni, Marthinsen
+and Owren, FGCS 19 (2003) 341). If stage i starts from the value of an earlier stage, the product of stage i
+includes the exponentials of the earlier stage.
 
-Printed conditions also contain sums over all exponentials: b_j = sum_J beta_Jj and a_ij = sum_J alpha_iJj.
-The abscissae are c_i = sum_j a_ij.
+Printed conditions contain alpha, beta and three sums: b_j = sum_I beta_Ij, a_ij = sum_I alpha_iIj and the
+abscissae c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ EXPONENTIAL_SYMBOLS = {
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods. A Runge-Kutta tableau defines a Crouch-Grossman method, in which each exponent
-    is a multiple of one stage value k_j.
+    """Commutator-free methods. A Runge-Kutta tableau is read as a Crouch-Grossman method, a commutator-free
+    method with one k_j in each exponent.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -63,7 +63,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     name = "cf"
     description = (
         "Commutator-free methods: each stage and the update are products of exponentials of "
-        "combinations of stage values."
+        "linear combinations of stage values."
     )
     formats = ("cf", "rk")
     symbols = EXPONENTIAL_SYMBOLS
@@ -72,7 +72,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
-        """Return the Lie-Butcher series of one step. A tableau (A, b) defines a Crouch-Grossman method."""
+        """Return the Lie-Butcher series of one step. A tableau (A, b) is read as a Crouch-Grossman method."""
         if isinstance(method, RungeKutta):
             return crouch_grossman_series(method, ring)
         *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
@@ -84,17 +84,17 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method. Otherwise return None.
+        """Return this family for a commutator-free method, else None.
 
-        The file of a commutator-free method should state the order in this family. The file of a tableau
-        (A, b) should state the order in the family ``cg``.
+        The file of the tableau should state the order of the method in the returned family. The file of a
+        tableau (A, b) states the order in the family ``cg``.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the exponentials of a commutator-free method form a palindrome.
+        """Return True if a palindrome of exponentials proves that a commutator-free method is symmetric.
 
-        Then the method is symmetric. The palindrome is defined in :mod:`orderconds.tableau.palindromes`.
+        See :mod:`orderconds.tableau.palindromes` for the criterion.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
@@ -104,11 +104,10 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return a list with the exponents of all stages and of the update.
+    """Return the exponents of each stage, and finally those of the update.
 
-    The list has one item for each stage. The last item of the list is for the update. An item contains the
-    exponents of all exponentials that are applied to y0, in the order of application. An exponent is a tuple
-    with one coefficient for each stage value k_j.
+    The exponents of a stage are in the order in which their exponentials are applied to y0. An exponent is a
+    tuple with one coefficient for each k_j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
@@ -123,9 +122,9 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the arrays of all coefficients in printed conditions, by name.
+    """Return a dictionary with the arrays alpha, beta, a, b and c of a commutator-free method.
 
-    The names are alpha, beta, a, b and c. The module docstring defines the coefficients.
+    The module docstring defines these coefficients.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -158,8 +157,9 @@ def _word(
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The function ``row(J, j)`` returns the coefficient of the stage value k_j in the exponent with index J.
-    The function ``row_total(j)`` returns the sum of these coefficients over J. If ``row_sum`` is not None, it
-    is a short formula for the sum of ``row_total(j)`` over j, such as c_i.
+    The function ``row_total(j)`` returns the sum of ``row(J, j)`` over J. If ``row_sum`` is not None, it is
+    the symbol for the sum of ``row_total(j)`` over j. For example, the symbol c_i denotes the sum of a_ij
+    over j.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 @register
 class CommutatorFreeMagnusFamily(WordFamily):
-    """Products of exponentials. Each exponent is a linear combination of values of A at nodes.
+    """Commutator-free Magnus methods for Y' = A(t) Y: products of exponentials without commutators.
 
     >>> for condition in CommutatorFreeMagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -50,8 +50,8 @@ class CommutatorFreeMagnusFamily(WordFamily):
 
     name = "cf_magnus"
     description = (
-        "Commutator-free Magnus methods for Y' = A(t) Y: products of exponentials of combinations of A_i = h "
-        "A(c_i h)."
+        "Commutator-free Magnus methods for Y' = A(t) Y: products of exponentials of linear combinations of "
+        "A_i = h A(c_i h)."
     )
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
@@ -81,11 +81,11 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the exact flow. This coefficient is an iterated integral."""
+        """Return the coefficient of a word in the exact flow, an iterated integral of powers of t."""
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return n!, where n is the length of the word. Both sides of the condition are multiplied by n!."""
+        """Return n! for a word of length n. The factor n! makes the coefficients in the formula integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:

@@ -56,9 +56,9 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b). Otherwise return None.
+        """Return this family for a tableau (A, b), else None.
 
-        The file of a tableau (A, b) should state the order of its Crouch-Grossman method.
+        The file of the tableau should state the order of the Crouch-Grossman method with this tableau.
         """
         return cls() if has_weights(tableau) else None
 
@@ -90,10 +90,10 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Return True if the exponentials of the Crouch-Grossman method of a tableau form a palindrome.
+    """Return True if a palindrome of exponentials proves that a Crouch-Grossman method is symmetric.
 
-    Then the Crouch-Grossman method and the variational Crouch-Grossman method of the tableau are symmetric.
-    The palindrome is defined in :mod:`orderconds.tableau.palindromes`.
+    The variational Crouch-Grossman method with the same tableau is then symmetric, too. See
+    :mod:`orderconds.tableau.palindromes` for the criterion.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -109,8 +109,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The exponent with index i is a multiple of the stage value k_i. The function ``row(i)`` returns the
-    coefficient of k_i. If ``row_sum`` is not None, it is a short formula for the sum of ``row(i)`` over i,
-    such as c_i.
+    coefficient of k_i. If ``row_sum`` is not None, it is the symbol for the sum of ``row(i)`` over i. For
+    example, the symbol c_i denotes the sum of a_ij over j.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -5,9 +5,9 @@ is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum 
 logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
 There is one condition for each word. The letter k of a word denotes X_k and has the weight k. The condition
-of a word states that the word has the same coefficient in one step and in the exact flow. If all n letters of
-a word are 1, its coefficient in the exact flow is 1/n!. Otherwise this coefficient is zero (HLW III.3.1;
-Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+of a word states that the word has the same coefficient in the series of one step and of the exact flow. If
+all n letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW III.3.1; Murua
+and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -61,11 +61,13 @@ class CompositionFamily(WordFamily):
     implies: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(
             ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
-            "the method is a composition of midpoint rules (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
+            "the method is a composition of midpoint rules (Bogfjellmo and Marthinsen, Lemma 3.5.4) or of "
+            "Euler methods",
         ),
         "symmetric_composition": "every symmetric composition is a composition",
         "splitting": (
-            "a composition of a method and its adjoint gives a splitting of the same order (McLachlan 1995)"
+            "if Phi is a product of two flows, the composition is a splitting of the same order "
+            "(McLachlan 1995)"
         ),
     }
     bounds_others = True
@@ -83,7 +85,7 @@ class CompositionFamily(WordFamily):
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return n!, where n is the length of the word. Both sides of the condition are multiplied by n!."""
+        """Return n! for a word of length n. The factor n! makes the coefficients in the formula integers."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -117,9 +119,9 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a composition. Otherwise return None.
+        """Return this family for a composition, else None.
 
-        The file of a composition should state the order of the method in this family.
+        The file of the composition should state the order of the method in the returned family.
         """
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
@@ -129,7 +131,7 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label ``symmetric_composition``, because ``orderconds solve`` considers only palindromic
+        """Return ``symmetric_composition``, because ``orderconds solve`` searches only for palindromic
         sequences of step sizes."""
         return "symmetric_composition"
 
@@ -154,19 +156,19 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function that maps a word and the summation index of a block to a pair (formula, n).
+"""A function that maps a word and the summation index of a factor to a pair (formula, divisor).
 
-A block is a stage or an exponential. The coefficient of the word in the series of the block is the formula
-divided by the integer n.
+One step is a product of factors, such as exponentials. The coefficient of the word in the series of the
+factor is the formula divided by the integer ``divisor``.
 """
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The step is a composition of blocks. A block is a stage or an exponential. The function ``block`` returns
-    the coefficient of a word in the series of one block (:data:`BlockFormula`). The argument ``kind`` is the
-    name of the summation indices, such as "i" for stages and "J" for exponentials.
+    The step is a product of factors, such as exponentials. The function ``block`` returns the coefficient
+    of a word in the series of one factor (:data:`BlockFormula`). The argument ``kind`` is the name of the
+    summation indices, such as "i" or "J".
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -192,8 +194,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return the formula r! x and the integer r!. Here r is the number of letters of a word, and x is the
-    coefficient of the word in the series of Phi_{alpha_i h} Phi*_{beta_i h}."""
+    """Return the pair (r! x, r!), where x is the coefficient of a word with r letters in the series of
+    Phi_{alpha_i h} Phi*_{beta_i h}."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]
