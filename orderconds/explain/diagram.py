@@ -51,8 +51,8 @@ class Vertex:
 
     The attribute ``label`` is the printed text of a letter. It is empty for vertices with other signs.
 
-    For a force in an action tree, ``legs`` is a pair (m, n). The first n branches are velocities. The edge to
-    the parent comes after the first m velocities. For other vertices, and for n = 0, ``legs`` is None.
+    A force in an action tree has n velocities, which are its first n branches. If n > 0, ``legs`` is a pair
+    (m, n): the edge to the parent comes after the first m velocities. For all other vertices, it is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -124,7 +124,7 @@ def action(tree: Velocity) -> Diagram:
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
     """Return the diagram of a word. The diagram of a Lyndon word is the binary tree of its standard
-    bracketing. The diagram of a different word is a sequence of letters.
+    bracketing. The diagram of any other word is a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])

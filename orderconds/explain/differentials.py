@@ -29,7 +29,7 @@ def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
     The argument is a rooted tree: the free tree with one of its vertices as the root. The choice of the root
-    affects only the sign of the result. H denotes the Hamiltonian, and f its vector field.
+    affects only the sign of the result. H is the Hamiltonian, and f is the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -71,7 +71,7 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 
 
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
-    r"""Return the elementary Hamiltonian of a tree with directed edges, without the sign.
+    r"""Return the elementary Hamiltonian of a tree with directed edges, up to the sign.
 
     The equations of motion are q' = H_p and p' = -H_q. Each vertex denotes a partial derivative of H. Each
     edge that begins at the vertex adds the subscript q. Each edge that ends at the vertex adds the
@@ -84,7 +84,7 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 
 
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
-    r"""Return the elementary Hamiltonian of a tree of two colours, without the sign (HLW VI.7.2).
+    r"""Return the elementary Hamiltonian of a tree of two colours, up to the sign (HLW VI.7.2).
     Neighbouring vertices of the tree must have different colours.
 
     The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, and a white vertex denotes V.
@@ -110,7 +110,7 @@ def bracket(word: Word, name: Callable[[Letter], str]) -> str:
 
 
 def commutator(nested: Bracket, name: Callable[[Letter], str]) -> str:
-    """Return nested brackets of letters as text.
+    """Return a nested commutator as text. The function ``name`` converts a letter to text.
 
     >>> commutator(("A", ("A", "B")), str)
     '[A, [A, B]]'

@@ -47,7 +47,7 @@ class ShownTree:
 
     @property
     def condition(self) -> OrderCondition | None:
-        """The order condition of the tree, or None if the family has no condition for this tree."""
+        """The order condition of the tree in the family ``kind.family()``, or None if there is none."""
         return self.kind.conditions(self.order).get(self.member)
 
     def drawing(self, *, ascii_only: bool = False) -> str:
@@ -71,14 +71,14 @@ class ShownTree:
 
 @dataclass(frozen=True, repr=False)
 class ShownTrees:
-    """All trees of one kind and one order. Their sequence is the same in every run."""
+    """All trees of one kind and one order. The sequence of the trees is the same in every run."""
 
     kind: Kind
     order: int
 
     @cached_property
     def members(self) -> tuple[ShownTree, ...]:
-        """The trees as a tuple. Their sequence is the same in every run."""
+        """The trees as a tuple."""
         return tuple(ShownTree(self.kind, member, self.order) for member in self.kind.members(self.order))
 
     @property

@@ -67,8 +67,10 @@ class Kind:
         )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
-        """Return a map from the members of the given order to their order conditions in the family of methods
-        that :meth:`family` returns."""
+        """Return the order conditions of the given order in the family that :meth:`family` returns.
+
+        The keys of the result are trees, forests or words.
+        """
         family = self.family()
         conditions = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in conditions}
@@ -292,9 +294,9 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The function ``partitioned_differential`` needs a tree with vertices of two colours. The root
-        # becomes black. A vertex becomes white if the edge to its parent points to the parent. A vertex
-        # becomes black if this edge points to the vertex.
+        # The function ``partitioned_differential`` needs a tree with vertices of two colours. Directions of
+        # edges and colours have the same encoding, except at the root: a vertex becomes white if the edge to
+        # its parent points to the parent. All other vertices become black.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

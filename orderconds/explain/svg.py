@@ -1,7 +1,7 @@
 """Drawings of diagrams in SVG, with the root at the bottom. One document contains several drawings.
 
-Coordinates are decimals with two digits, so that a drawing has the same bytes on every platform. Lines have
-the colour of the surrounding text (``currentColor``).
+Coordinates are rounded to two decimal places. Therefore a drawing has the same bytes on every platform. Lines
+have the colour of the surrounding text (``currentColor``).
 """
 
 from __future__ import annotations
@@ -29,8 +29,9 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    ``left`` contains the left end of the drawing at each level, and ``right`` contains the right end. These
-    positions are relative to the vertex. The unit of length is the distance between neighbouring vertices.
+    ``left`` contains one number for each level of the drawing: the position of the left end, relative to the
+    vertex. ``right`` contains the positions of the right ends. The unit of length is the distance between
+    neighbouring vertices.
     """
 
     x: float
@@ -68,7 +69,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A vertex with ``legs`` has a note at its right side. The right outline leaves room for this note.
+    # A text such as ``›*`` is drawn to the right of a vertex with ``legs`` and needs room.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -125,8 +126,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and of its caption. ``x`` is the left end of both. The
-        diagram is above the vertical position ``ground``, and the caption is below it."""
+        """Yield the SVG elements of the diagram and of its caption. Both are centred in the block, whose left
+        end is ``x``. The diagram is above the vertical position ``ground``, the caption is below."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

@@ -28,7 +28,7 @@ def picture(diagram: Diagram) -> str:
         tree = lay_out(vertex)
         parts += _drawn(tree, at - min(tree.left), 0)
         at += max(tree.right) - min(tree.left) + 1
-    # Edges are drawn first, so that white vertices cover the ends of the edges.
+    # Edges are drawn first, because white vertices must cover the ends of the edges.
     ordered = sorted(parts, key=lambda part: not part.startswith(r"\draw") or " -- " not in part)
     return rf"\tikz[tree]{{{' '.join(ordered)}}}"
 

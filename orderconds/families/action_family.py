@@ -1,4 +1,4 @@
-"""The base class of variational families, whose order conditions belong to action trees.
+"""The base class of families of variational methods. Their order conditions belong to action trees.
 
 The module :mod:`orderconds.series.action_trees` defines these trees.
 """
@@ -35,14 +35,15 @@ if TYPE_CHECKING:
 
 
 class ActionFamily(Family):
-    """A family with one order condition for each action tree t. The velocities are elements of a Lie algebra.
+    """A family with one order condition for each action tree.
 
-    The left-hand side of the condition is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient
-    of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
+    The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is
+    the coefficient of t in the velocity of stage i, which is an element of the Lie algebra. The conditions of
+    order n belong to the trees with n vertices.
 
     The function :meth:`conditions` returns independent conditions. To find them, it evaluates all conditions
     for random integration methods. The function :meth:`decisive_conditions` evaluates no methods and
-    is faster. However, some of its conditions may be dependent on others.
+    is faster. However, the conditions that it returns can be dependent.
     """
 
     needs_nonzero_weights = True
@@ -59,8 +60,8 @@ class ActionFamily(Family):
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of a method of this family with random coefficients in ``ring``.
 
-        An element of ``ring`` may be a vector with one entry for each of several methods. The number of
-        stages is sufficient to find the independent conditions up to ``order``.
+        In some rings, an element is a vector with one entry for each of several methods. The number of
+        stages grows with ``order``. With too few stages, independent conditions could seem dependent.
         """
 
     @abstractmethod
@@ -104,10 +105,10 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the :meth:`relations` of the given order hold over the rational numbers Q.
+        """Return True if the :meth:`relations` of the given order pass a test over the rational numbers.
 
-        The relations are computed modulo primes. This function tests the relations over Q, for the exact flow
-        and for one method with random rational coefficients.
+        The relations are computed modulo primes. The test evaluates the relations for the exact flow and for
+        one method with random rational coefficients.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -154,9 +155,9 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if ``tableau`` has the form (A, b) without zero weights. Otherwise return None.
+        """Return this family for a Runge-Kutta tableau or composition without zero weights, else None.
 
-        A file with such a tableau should state the order of the method in this family.
+        The file of such a method should state the order of the method in this family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 
@@ -203,7 +204,9 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word in the formula for the coefficient of an action tree.
+    """Return the length of the longest word that is needed to compute the coefficient of ``tree``.
+
+    The coefficient is a sum of products, and the factors are coefficients of words.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))

@@ -1,18 +1,18 @@
 """The conditions of action trees as sums over indices, such as ``sum_i b_i c_i^2 = 1/3``.
 
-The conditions contain coefficients of words in a product of exponentials. Let u be a word of k letters. Each
-letter comes from one of the exponentials, and the n-th letter comes from the exponential with index j_n. The
-coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``. Each term is a product of k factors:
-the coefficients of the letters in the exponents. If r letters come from the same exponential, the term is
-divided by r!.
+The conditions contain coefficients of words in a product of exponentials. The letters of a word are trees.
+Let u be a word of k letters. Each letter comes from one of the exponentials, and the n-th letter comes from
+the exponential with index j_n. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``.
+Each term is a product of k factors: the coefficients of the letters in the exponents. If r letters come from
+the same exponential, the term is divided by r!.
 
 A run is a group of adjacent letters from the same exponential. Each division of u into runs gives one sum,
-with one index for each run. The indices satisfy strict inequalities. The coefficient of u is the sum over all
-divisions.
+with one index for each run. The indices increase strictly from run to run. The coefficient of u is the sum
+over all divisions.
 
 The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
-exponents. The coefficient of u is then S^k/k!. Printed conditions contain no denominator k!, because both
-sides are multiplied by k! (:func:`multiplier`).
+exponents. In this case, the coefficient of u is S^k/k!. Printed conditions contain no denominator k!, because
+both sides are multiplied by k! (:func:`multiplier`).
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
     The coefficient of a word of k equal letters has the denominator k!. The multiplication removes these
-    denominators. The factor is a product of factorials k!, one for the tree and for each subtree of type
-    ``Velocity`` whose word consists of k equal letters.
+    denominators. A velocity contributes k! to the factor if its word consists of k equal letters. The factor
+    is the product of these contributions over the tree and all its subtrees.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -84,9 +84,9 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, multiplied by a factor.
+        """Return the coefficient of a word in the group element of stage ``row``.
 
-        The factor is k! for a word of k equal letters, and 1 for all other words.
+        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
         """
 
     @abstractmethod
@@ -94,7 +94,7 @@ class ActionFormula(ABC):
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
         The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
+        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
         """
 
     def condition(self, tree: Velocity) -> Formula:
@@ -128,7 +128,7 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """Sums for methods whose stages and update are products of exponentials.
+    """The index sums of methods whose stages and update are products of exponentials.
 
     The argument ``place`` of a function is the index of an exponential.
 
@@ -140,23 +140,23 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def place(self) -> str:
-        """Return an unused name for an index of exponentials."""
+        """Return an unused name for the index of an exponential."""
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return the coefficient of ``tree`` in the exponent with index ``place`` of stage ``row``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, multiplied by a factor.
+        """Return the coefficient of a word in the group element of stage ``row``.
 
-        The factor is k! for a word of k equal letters, and 1 for all other words.
+        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
 
     def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of a tree's coefficients in all exponents of stage ``row``."""
+        """Return the sum of the coefficients of ``tree`` in all exponents of stage ``row``."""
         if tree.vertices == 1:
             return coefficient("c", row)
         place = self.place()
@@ -165,12 +165,12 @@ class ExponentialsFormula(ActionFormula):
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
         """Return the coefficient of a word in a product of exponentials.
 
-        The product contains the exponentials with an index between ``above`` and ``below``, both excluded. If
-        ``above`` or ``below`` is None, this bound is omitted.
+        The product contains the exponentials whose index j satisfies ``above < j < below``. If a bound is
+        None, the bound is omitted.
         """
         if not word:
             return one()
-        # A run is a group of adjacent letters from one exponential. In the first term, each run has length 1.
+        # Runs are groups of adjacent letters from one exponential. The term with the most runs comes first.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
@@ -181,7 +181,7 @@ class ExponentialsFormula(ActionFormula):
 
         The word is divided into runs, and all letters of a run come from the same exponential. ``lengths``
         contains the number of letters in each run. The factor is the product of 1/r! over the runs, where r
-        is the number of letters.
+        is the number of letters in the run.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -209,8 +209,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Sums for Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij. The update has
-    one exponential for each weight b_j. In both cases, j is the index of the exponential.
+    """The index sums of Crouch-Grossman methods. Stage i has one exponential for each coefficient a_ij. The
+    update has one exponential for each weight b_j. In both cases, j is the index of the exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -219,7 +219,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for an index of stages."""
+        """Return an unused name for the index of a stage, which is also the index of an exponential."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -234,17 +234,17 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
         The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
+        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Sums for commutator-free methods. The stages and the update are products of exponentials.
+    """The index sums of commutator-free methods. The stages and the update are products of exponentials.
 
     In stage i, the exponent with index J is ``sum_j alpha_iJj xi_j``. In the update, the exponent with index
     J is ``sum_j beta_Jj xi_j``. Here xi_j is the velocity of stage j. The numbers alpha_iJj and beta_Jj are
-    the coefficients of the method.
+    the coefficients of the method. The weights are ``b_j = sum_J beta_Jj``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -253,7 +253,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for an index of exponentials."""
+        """Return an unused name for the index of an exponential."""
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -270,7 +270,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
         """Return the coefficient of the word u x v in the group element of stage ``row``.
 
         The words u and v are ``before`` and ``after``. The letter x is a perturbation that is added to the
-        velocity of ``stage``. If ``row`` is None, the group element is that of the update.
+        velocity of ``stage``. If ``row`` is None, the update takes the place of the stage ``row``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -283,7 +283,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Sums for Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
+    """The index sums of Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``,
     and xi_j is the velocity of stage j. The operator dexpinv is the inverse of the differential of exp. It is
@@ -301,10 +301,9 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), multiplied by a factor. The index i is ``row``.
+        """Return the coefficient of a word in exp(X_i), where i is ``row``. The class docstring defines X_i.
 
-        The factor is k! for a word of k equal letters, and 1 for all other words. The class docstring defines
-        X_i.
+        If the word consists of k equal letters, the coefficient is multiplied by k! (:func:`multiplier`).
         """
         if len(set(word)) > 1:
             return self._exponential(row, word)
@@ -380,8 +379,8 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # Let X be the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0,
-            # the power X^m does not contain the empty word.
+            # X is the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0, the
+            # power X^m does not contain the empty word. All terms that vanish for this reason are skipped.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -391,8 +390,8 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Sums for Munthe-Kaas methods in which the series of dexp is truncated, not the series of dexpinv. Stage
-    i has the exponential exp(X_i), and the update has exp(Y).
+    """The index sums of Munthe-Kaas methods that truncate the series of dexp, not the series of dexpinv.
+    Stage i has the exponential exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
     equation ``dexp_{X_j} v_j = xi_j``, and xi_j is the velocity of stage j. The operator dexp is the

@@ -1,8 +1,8 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
 A step may leave the manifold. The exact solution stays on the manifold. Therefore the distance between the
-numerical solution and the manifold after one step is at most the local error. The order is the classical
-order of the tableau. This family is intended for comparisons with methods that stay on the manifold.
+numerical solution and the manifold after one step is at most the local error. The order is the order of the
+tableau in the family ``rk``. This family is intended for comparisons with methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.tableau.record import Tableau
 
 @register
 class AmbientFamily(RungeKuttaFamily):
-    """Runge-Kutta methods in ambient coordinates. The conditions are the same as in the family ``rk``.
+    """Runge-Kutta methods in the ambient space. The conditions are the same as in the family ``rk``.
 
     >>> [str(condition) for condition in AmbientFamily().conditions(2)]
     ['sum_i b_i c_i = 1/2']
@@ -34,8 +34,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file states the order in the family ``rk`` only, because this order is also
-        the order in the family ``ambient``."""
+        """Return None. A tableau file states only the order in the family ``rk``, because the order in the
+        family ``ambient`` is the same."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -40,7 +40,7 @@ class Family(ABC):
     """A family of integration methods, such as the Crouch-Grossman methods.
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
-    :meth:`evaluate`. All other attributes and methods have defaults. The function
+    :meth:`evaluate`. All other attributes and functions have defaults. The function
     :func:`orderconds.families.register` makes the family available to every command. An option of a
     family, such as ``cutoff``, is an integer parameter of the constructor of its class.
     """
@@ -92,18 +92,19 @@ class Family(ABC):
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
-    """The name of a family with the same conditions of orders 1 and 2, or None."""
+    """The name of a family that has the same conditions of orders 1 and 2 as this family, or None."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` derives bounds of orders in other families from the order in this family."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of families in which each low-storage scheme has the order that it has in this family."""
+    """The names of families. If a low-storage scheme has order p in this family, it has at least order p in
+    these families."""
 
     # Methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. Two updates with different weights can then
-    use the same stages. The difference of the two updates estimates the error.
+    """True if the stages do not depend on the weights. In this case, two updates with different weights use
+    the same stages. The difference of the two updates estimates the error.
     """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
@@ -181,7 +182,7 @@ class Family(ABC):
     def dependence_holds(self, order: int) -> bool:
         """Return True if :meth:`conditions` omits only dependent conditions of the given order.
 
-        By default, return True, because a theorem about trees or words determines the omitted conditions.
+        By default, return True: a theorem proves that the omitted conditions are dependent.
         """
         return True
 
@@ -209,7 +210,7 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand side minus the right-hand side of each condition, as elements of ``ring``.
 
-        The coefficients may be balls (intervals). Raises ZeroDivisionError if a divisor is a ball that
+        The coefficients can be balls (intervals). Raises ZeroDivisionError if a divisor is a ball that
         contains zero.
 
         >>> from orderconds.families import get
@@ -237,10 +238,10 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of the :meth:`conditions` of the given order. Some subclasses return the
-        residuals of other conditions of this order.
+        """Return the residuals of the :meth:`conditions` of the given order.
 
-        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error.
+        For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. A
+        subclass can use other conditions of the given order for this purpose.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -262,14 +263,14 @@ class Family(ABC):
         """Return the family in which the order of ``method`` is tested if the tableau file states no order.
 
         ``self`` is the family with the same name as the tableau format. By default, return ``self``. A family
-        of splittings returns the variant with the number of fields of ``method``.
+        of splittings returns the variant with the number of vector fields of ``method``.
         """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should state the order in this family. Otherwise
-        return None."""
+        """Return this family if the file of ``tableau`` should state the order of the method in this family.
+        Otherwise return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -281,13 +282,13 @@ class Family(ABC):
     def claimed_variants(self) -> tuple[Family, ...]:
         """Return variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``.
 
-        A tableau file should state the order of the method in each of the returned variants. The variant
-        with the cheapest step comes first.
+        The variant with the cheapest step comes first. The command ``orderconds solve`` writes the order in
+        this variant to the tableau file. It adds the order in the next variant only if this order is higher.
         """
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations, exponentials and brackets in one step.
+        """Return the numbers of vector field evaluations, exponentials and brackets in one step.
 
         Return None if the numbers are unknown.
         """
@@ -313,8 +314,8 @@ class Family(ABC):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        If ``explicit`` is true, the method is explicit. Raises :class:`~orderconds.errors.InputError` if
-        methods of the family with ``stages`` stages can have different sets of coefficients.
+        If ``explicit`` is true, the method is explicit. Raises :class:`~orderconds.errors.InputError` if the
+        number of stages does not determine which coefficients a method of this family has.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -331,7 +332,7 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order in this family. It follows from the orders in other families.
+        """Return a lower bound of the order in this family. The bound follows from orders in other families.
 
         ``orders`` maps the labels of other families to the orders of the method in these families. The bound
         is 0 if no theorem applies.
@@ -350,10 +351,10 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, which imply the conditions of this family for ``method``.
+        """Return a family with fewer conditions, and ``method`` in a format that this other family accepts.
 
-        The result also contains the method in a format that the returned family accepts. Return None if no
-        such family is known.
+        For ``method``, the conditions of the other family imply the conditions of this family. Return None
+        if no such family is known.
         """
         return None
 
@@ -372,8 +373,8 @@ class Family(ABC):
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions that apply to a method. A reduction is a theorem by which some conditions
-        need not be evaluated.
+        """Return the reductions that apply to a method. A reduction is a theorem. If it applies, some
+        conditions need not be evaluated.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -391,24 +392,25 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions. If ``method`` is symmetric, the conditions of the returned
-        family determine its order.
+        """Return a family with fewer conditions, or None if no such family is known.
 
-        Return None if no such family is known.
+        If ``method`` is symmetric, the conditions of the returned family determine the order of ``method``.
         """
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label, bound) for symmetric methods that have the order ``order`` in this family.
+        """Return pairs (label, bound), where ``label`` is the label of a family.
 
-        In the family with this label, the order of each such method is at least ``bound``.
+        If a symmetric method has the order ``order`` in this family, its order in the family ``label`` is at
+        least ``bound``.
         """
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
         """Return the label of the family from which ``orderconds solve`` takes the order conditions.
 
-        By default, return the label of this family. The option ``--rkn`` sets ``nystroem`` to true.
+        By default, return the label of this family. The option ``--rkn`` of the command sets ``nystroem`` to
+        true.
         """
         return self.label()
 
