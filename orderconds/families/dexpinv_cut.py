@@ -11,8 +11,8 @@ tableau (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 The truncation changes one step by a term with h^(R+3) and by higher powers of h. The order with truncation is
 min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3).
 
-The coefficient of a tree is computed from words, whose letters are smaller trees. The truncation changes only
-the contributions of words with more than R + 1 letters.
+The formula for the coefficient of a tree contains the branches at each vertex as a word. The letters of the
+word are smaller trees. The truncation changes only the terms of words with more than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""A tableau file should state the order for each of these values of ``cutoff``."""
+"""The values of ``cutoff`` for which a tableau file should state the order of the method."""
 
 
 class DexpinvCut(Family):
@@ -50,8 +50,8 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the maximal length of the words from which the coefficient of a tree or forest is computed.
-        The letters of these words are trees."""
+        """Return the length of the longest word in the formula for the coefficient of a tree or forest. The
+        letters of a word are trees."""
 
     def label(self) -> str:
         """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
@@ -61,7 +61,7 @@ class DexpinvCut(Family):
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim that a method has the order ``order`` in this family."""
+        """Return the entry of a tableau file that states the order ``order`` for this family."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -73,10 +73,11 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method, computed from its orders in other families.
+        """Return a lower bound of the order of a method in this family.
 
-        The result is the largest of several bounds. One bound is min(p, R + 2) from the module docstring, or
-        p if ``cutoff`` is None.
+        ``orders`` maps the names of other families to the orders of the method in these families. One bound
+        is min(p, R + 2) from the module docstring, or p if ``cutoff`` is None. If the base class gives a
+        larger bound, return the larger bound.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -90,7 +91,8 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return a description of the conditions that the truncation of dexpinv does not change.
 
-        Return None if ``method`` is not a Runge-Kutta tableau, or if :attr:`abelian` is None.
+        Return None if ``method`` is not a Runge-Kutta tableau. Also return None if :attr:`abelian` is None,
+        because the order without truncation is then unknown.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
@@ -98,10 +100,10 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return R + 1, where the module docstring defines R. The truncation of dexpinv changes only the
-    contributions of words with more than R + 1 letters.
+    """Return R + 1, the greatest length of a word whose term is not changed by the truncation of dexpinv. The
+    module docstring defines R.
 
-    If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large number.
+    If ``cutoff`` is None, the result is 2^30, because no word is too long.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

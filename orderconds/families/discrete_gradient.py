@@ -59,5 +59,5 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None. A step evaluates the energy and its differential instead of a vector field."""
+        """Return None, because a step evaluates no vector field whose evaluations could be counted."""
         return None

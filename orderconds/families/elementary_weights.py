@@ -1,8 +1,8 @@
 """Elementary weights of rooted trees as index sums, and the order conditions of trees.
 
 The order condition of a tree states that the elementary weight is equal to 1/gamma, where gamma is the
-density of the tree. A tree can have edges of two kinds, 0 and 1. An edge of kind 0 gives a factor a_ij, and
-an edge of kind 1 gives a factor ahat_ij.
+density of the tree. A tree can have edges of two kinds, 0 and 1. In the elementary weight, an edge of kind 0
+gives a factor a_ij, and an edge of kind 1 gives a factor ahat_ij.
 """
 
 from __future__ import annotations
@@ -81,8 +81,8 @@ def weight_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return the order conditions of the trees. Each condition is a :func:`weight_condition`.
 
-    The function ``switching`` expresses the weight of a dependent tree by the weights of independent trees.
-    If ``switching`` is given, the condition of each dependent tree stores this relation.
+    The elementary weights of some trees depend on the weights of other trees. The function ``switching``
+    returns these relations as polynomials. If ``switching`` is given, the conditions store the relations.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -119,7 +119,7 @@ def _summed(
 ) -> Formula:
     """Return an index sum over ``indices`` and over the vertices of ``tree`` below the root.
 
-    The summand is the product of ``factors`` and of the coefficients of all edges, such as a_ij. The last
+    Each term is the product of ``factors`` and of one coefficient a_ij or ahat_ij for each edge. The last
     item of ``indices`` is the index of the root. See :func:`elementary_weight` for ``below``.
     """
     bound = list(indices)
@@ -135,7 +135,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # The factors of the leaves come before the factors of the larger branches.
+    # Leaves give the factors c_i. These factors come before the sums of larger branches.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

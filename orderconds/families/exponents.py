@@ -33,10 +33,10 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return one function for each exponent of a method. The function maps a word to the coefficient of the
-    word in the exponent.
+    """Return one function for each exponent of a method. The function of an exponent maps a word to the
+    coefficient of the word in this exponent.
 
-    The first function belongs to the exponent that acts first. Each function stores its results.
+    The functions are in the order in which the exponents act. They store their results.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
@@ -50,7 +50,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the coefficient of a word in the product ``then * first``, where ``first`` acts first."""
+        """Return the coefficient of a word in the product of ``then`` and ``first``. ``first`` acts first."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

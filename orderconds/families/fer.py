@@ -1,12 +1,12 @@
 """Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
 
-Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i, and F_2 = sum_{ij} phi_ij A_j A_i + ...
-is a combination of brackets, written as a sum of products. If a method has more than two exponentials,
-exp(F_2) denotes the product of all factors except exp(F_1).
+Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i. The exponent F_2 is a combination
+of brackets. If all brackets are expanded, F_2 = sum_{ij} phi_ij A_j A_i + .... If a method has more than
+two exponentials, exp(F_2) denotes the product of all factors except exp(F_1).
 
 Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... A
-word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. Under
-these conditions F_1 approximates F, the integral of A over one step. Let Y be the exact flow. The conditions
+word with one letter gives a condition on the quadrature rule with the nodes c_i and the weights b_i. If these
+conditions hold, F_1 approximates F, the integral of A over one step. Let Y be the exact flow. The conditions
 of longer words compare F_2 with the logarithm of exp(-F) Y.
 
 Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The exponent F_1, which acts last, contains no commutators. All other exponents contain
-    only commutators.
+    """Fer methods. The exponent F_1, which acts last, contains no commutators. All terms of the other
+    exponents are commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -65,8 +65,8 @@ class FerFamily(MagnusFamily):
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The exponent F_1, which acts last, must not contain commutators. All other exponents must contain only
-        commutators.
+        The exponent F_1, which acts last, must not contain commutators. All terms of the other exponents must
+        be commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
@@ -75,7 +75,7 @@ class FerFamily(MagnusFamily):
                 "the exponent that acts last contains commutators, or another exponent has terms without "
                 "commutators",
                 where=f"family {self.name}",
-                expected="no commutators in F_1, the exponent that acts last; only commutators in all others",
+                expected="no commutators in the exponent that acts last, only commutators in other exponents",
                 hint="use the family 'magnus'",
             )
 
@@ -92,7 +92,8 @@ class FerFamily(MagnusFamily):
         """Return the left-hand side of the condition of a word as a sum over nodes.
 
         For a word that consists of one letter k, the terms of the sum are b_i c_i^(k-1). For a longer word
-        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ....
+        with the letters k_1, k_2, ..., the terms are phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) .... The module
+        docstring defines b_i and phi_{ij...}.
         """
         return node_sum("b" if len(word) == 1 else "phi", word)
 
@@ -100,7 +101,8 @@ class FerFamily(MagnusFamily):
         """Return a function that maps each word to the left-hand side of its condition.
 
         The exponent F_1 acts last. Let F_2 be the logarithm of the product of all other exponentials. The
-        left-hand side is the coefficient of the word in F_1 for one letter, and in F_2 for longer words.
+        left-hand side of a word with one letter is its coefficient in F_1. The left-hand side of a longer
+        word is its coefficient in F_2.
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

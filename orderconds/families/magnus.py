@@ -1,9 +1,9 @@
 """Magnus methods for Y' = A(t) Y. One step is the exponential of Omega. The exponent Omega is a linear
 combination of the values A_i = h A(c_i h) and of their brackets, where c_i are the nodes.
 
-If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... The number
-omega_{ij...} is the coefficient of the product ... A_j A_i, in which A_i acts first. If a step is a product
-of several exponentials, Omega is the logarithm of this product.
+If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... In the product
+A_j A_i, the factor A_i acts first. If a step is a product of several exponentials, Omega is the logarithm of
+this product.
 
 Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... The
 condition states that the word has the same coefficient in Omega and in the Magnus expansion (Iserles,
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 @register
 class MagnusFamily(WordFamily):
     """Magnus methods exp(Omega), and products of such exponentials. Omega is a linear combination of the
-    values A_i and of their brackets.
+    values A_i = h A(c_i h) and of their brackets.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -70,8 +70,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the map of the method, ``exp`` or ``cay``, differs
-        from :attr:`transform`."""
+        """Raise :class:`~orderconds.errors.InputError` if the method does not use the map :attr:`transform`,
+        ``exp`` or ``cay``."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -82,21 +82,21 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return the family ``magnus`` for exponentials, and the family ``cayley`` for Cayley transforms."""
+        """Return the family ``magnus`` for a method with exponentials, else the family ``cayley``."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a method with the map :attr:`transform`, else None.
+        """Return this family for a Magnus method with the map :attr:`transform`, else None.
 
-        The file of the tableau should state the order of the method in the returned family.
+        The tableau file of the method should state the order in the returned family.
         """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of nodes, different exponents and commutators of a Magnus method. For another
-        method, return None."""
+        """Return the numbers of nodes, different exponents and commutators of a Magnus method. If ``tableau``
+        contains no Magnus method, return None."""
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
@@ -108,7 +108,7 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word, a sum over nodes (:func:`node_sum`)."""
+        """Return the left-hand side of the condition of a word as a sum over nodes (:func:`node_sum`)."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -121,14 +121,15 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a product of ``order`` exponentials with random exponents."""
+        """Return a random product of exponentials, or of Cayley transforms. It has ``order`` factors."""
         return random_product(ring, generator, order, self.transform)
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return a sum over the nodes i, j, .... Let k_1, k_2, ... be the letters of the word.
+    """Return the coefficient of a word as a sum over the nodes i, j, ....
 
-    If ``name`` is "omega", the terms of the sum are omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
+    Let k_1, k_2, ... be the letters of the word, and let ``name`` be "omega", for example. Then the terms of
+    the sum are omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()
@@ -143,8 +144,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
     Lyndon words. This combination is the same for all Lie elements.
 
-    The word is a polynomial in Lyndon words with the shuffle product. In a Lie element, a shuffle product of
-    two or more words has the coefficient zero. Therefore only the linear part of the polynomial remains.
+    With the shuffle product, each word is a polynomial in Lyndon words. In a Lie element, a shuffle product
+    of two or more words has the coefficient zero. Therefore only the linear terms of the polynomial remain.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -155,8 +156,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
     """Return a random product of exponentials (``transform`` is "exp") or of Cayley transforms ("cay").
 
-    The product has ``size`` factors. The argument of each factor is a random linear combination of the values
-    of A at random nodes. The number of nodes is also ``size``.
+    The method has ``size`` random nodes c_i, and the product has ``size`` factors. The argument of each
+    factor is a random linear combination of the values A_i = h A(c_i h).
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

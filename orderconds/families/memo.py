@@ -1,8 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... The value of a series on a large tree is
-computed from values on smaller trees. The cache keeps the series with all computed values. Higher orders use
-these values.
+A check evaluates the conditions of one method for orders 1, 2, .... A series computes the coefficient of a
+large tree from the coefficients of smaller trees, and keeps the computed coefficients. The cache keeps the
+series, so the conditions of higher orders use the coefficients from lower orders.
 """
 
 from __future__ import annotations

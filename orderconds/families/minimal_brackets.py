@@ -22,8 +22,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """A family with one method. The argument ``program`` contains the exponents of the method, written as
-    linear combinations of stage values and brackets.
+    """The family of one program with few brackets. The argument ``program`` contains the exponents of all
+    stages as linear combinations of stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -40,13 +40,13 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
         used."""
-        # The ring Enclosures computes with balls of the library flint. A coefficient of the program stores
-        # its ball in the attribute ``value``.
+        # The ring Enclosures computes with the balls themselves, which the coefficients of the program store
+        # in the attribute ``value``.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return a copy of this family. The function ``convert`` converts each coefficient of the
+        """Return a copy of this family, in which ``convert`` is applied to each coefficient of the
         program."""
 
         def row(given: Row) -> Row:

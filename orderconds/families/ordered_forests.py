@@ -1,13 +1,13 @@
-"""Families whose conditions are indexed by Lyndon words. The letters are ordered trees, so a word is an
-ordered forest.
+"""Families with one condition for each Lyndon word. The letters of the words are ordered trees, so a word is
+an ordered forest.
 
-The series of a Lie group method has one coefficient for each word. The coefficients satisfy the shuffle
-relations, so the coefficients of Lyndon words determine all other coefficients
+The Lie-Butcher series of a Lie group method has one coefficient for each word. The coefficients satisfy the
+shuffle relations, so the coefficients of Lyndon words determine all other coefficients
 (:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
-Both sides of a condition are multiplied by the factorial of the length of the word, and by the factorial of
-the number of branches at each vertex of the trees. For example, the root of the tree [..] has two
-branches, so 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
+To remove common factors, both sides of a condition are multiplied by the integer :func:`scale`. For example,
+the root of the tree [..] has two branches, so 1/2 sum_i b_i c_i^2 = 1/6 is multiplied by 2!. The condition
+becomes sum_i b_i c_i^2 = 1/3.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ class OrderedForestFamily(Family):
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each ordered forest. Each dependent
-        condition stores a relation (:mod:`orderconds.families.relations`)."""
+        """Return the conditions of the given order, one for each ordered forest. The conditions of forests
+        that are not Lyndon words store a relation (:mod:`orderconds.families.relations`)."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -71,7 +71,7 @@ class OrderedForestFamily(Family):
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
         """Return the left-hand sides of ``conditions`` for ``method``. Each left-hand side is a coefficient
-        of the series times the factor :func:`scale`."""
+        of the Lie-Butcher series times the factor :func:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 

@@ -56,7 +56,7 @@ class PartitionedFamily(Family):
     search_limit = 7
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "in a system without a partition, one of the two groups of variables is empty"
+        "rk": "a system without a partition is a partitioned system with one empty group of variables"
     }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -66,7 +66,7 @@ class PartitionedFamily(Family):
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[BicolouredTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of the given order, each with a function that returns the condition of the tree."""
+        """Yield a pair (tree, function) for each tree. The function returns the condition of the tree."""
         for tree in bicoloured.bicoloured_rooted_trees(order):
             yield tree, partial(weight_condition, self.name, tree, bicoloured.text, rooted_weight)
 
@@ -89,14 +89,16 @@ class PartitionedFamily(Family):
         return cls()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if ``method`` is a pair and both tableaux are proved to be symmetric."""
+        """Return True if ``method`` is a pair, and if a computation proves that both tableaux are
+        symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
         """For a symplectic pair with b = bhat and non-zero weights, return the family ``sprk`` and the first
         tableau of the pair. For other methods, return None.
 
-        The conditions of ``sprk`` are indexed by free trees (HLW VI.7, Theorem 7.4).
+        For these pairs, the conditions of ``sprk`` imply all conditions of ``prk``. The family ``sprk`` has
+        fewer conditions, one for each free tree (HLW VI.7, Theorem 7.4).
         """
         if not isinstance(method, PartitionedRungeKutta):
             return None

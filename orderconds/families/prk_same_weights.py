@@ -40,19 +40,19 @@ class SameWeightsFamily(PartitionedFamily):
     implies: ClassVar[Mapping[str, str]] = {}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of the given order, one for each rooted tree with two kinds of edges. The
-        kind of an edge determines whether its factor is a_ij or ahat_ij."""
+        """Return the conditions of the given order, one for each rooted tree with two kinds of edges. An edge
+        gives the elementary weight a factor a_ij or ahat_ij, which depends on its kind."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of the given order, each with a function that returns the condition of the tree."""
+        """Yield a pair (tree, function) for each tree. The function returns the condition of the tree."""
         for tree in directed.directed_rooted_trees_in_turn(order):
             yield tree, partial(weight_condition, self.name, tree, directed.text)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A method has the same order in this family and in ``prk``, so the tableau file states
-        only the order in ``prk``."""
+        """Return None. The tableau file states the order in ``prk``, and this order is also the order in this
+        family."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -6,15 +6,16 @@ reductions:
 
 - *symmetry*: if n is even and the method is symmetric, the conditions of order n hold, because the order of a
   symmetric method is even (HLW II.3, Theorem 3.2);
-- *substitution*: the conditions of another family may imply all conditions of order n. The evaluation of
-  these other conditions may take less time. For a symplectic pair with b = bhat, the
-  conditions of free trees with directed edges imply the conditions of all rooted trees of two colours (Abia
-  and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
+- *substitution*: for some methods, the conditions of another family imply all conditions of order n and are
+  faster to evaluate. For a symplectic pair with b = bhat, the conditions of free trees with directed edges
+  imply the conditions of all rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *truncation of dexpinv*: some methods truncate the series of dexpinv, the inverse of the differential of
-  exp. The truncation leaves many conditions unchanged (:mod:`orderconds.families.dexpinv_cut`).
+  exp. The truncation leaves many conditions unchanged. If these conditions hold for the method without
+  truncation, they are not evaluated (:mod:`orderconds.families.dexpinv_cut`).
 
-The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls
-(intervals), only the third reduction is used, and the balls must be proved to contain a solution.
+The assumptions of a reduction are verified for each tableau in exact arithmetic. If the coefficients are
+balls (intervals), only the third reduction is used. The balls must be proved to contain a solution of the
+order conditions.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 class Substitute(Struct, frozen=True):
     """A family whose conditions are checked instead of the conditions of the original family. ``method`` is
-    the method in a format of ``family``."""
+    the checked method in a tableau format of ``family``."""
 
     family: Family
     method: Method
@@ -42,9 +43,9 @@ class Substitute(Struct, frozen=True):
 class UnseenCut(Struct, frozen=True):
     """A description of the conditions that the truncation of dexpinv does not change.
 
-    ``order`` is the order of the method without truncation. The coefficient of a tree or forest is computed
-    from words, whose letters are smaller trees. The function ``length`` returns the length of the longest of
-    these words. If this length is at most ``longest``, the truncation does not change the coefficient.
+    ``order`` is the order of the method without truncation. The formula for the coefficient of a tree or
+    forest contains words, whose letters are trees. The function ``length`` returns the length of the longest
+    word. If this length is at most ``longest``, the truncation does not change the coefficient.
     """
 
     order: int
@@ -55,10 +56,9 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric. The order of a symmetric method is even. ``substitute``
-    contains a family whose conditions imply the conditions of the original family. ``cut`` describes the
-    conditions that the truncation of dexpinv does not change. If one of these reductions does not apply, its
-    attribute ``substitute`` or ``cut`` is None.
+    ``even`` is true if the method is symmetric, because the order of a symmetric method is even.
+    ``substitute`` contains a family whose conditions imply the conditions of the original family, or None.
+    ``cut`` describes the conditions that the truncation of dexpinv does not change, or is None.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -75,9 +75,9 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if ``substitute.method`` satisfies all conditions of order n of ``substitute.family``.
-        These conditions imply all conditions of order n of the original family. Return False if there is no
-        substitute."""
+        """Return True if ``substitute`` implies all conditions of order n. This is true if
+        ``substitute.method`` satisfies the conditions of order n of ``substitute.family``. Return False if
+        ``substitute`` is None."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -85,9 +85,9 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if ``cut`` implies the condition of order ``n`` with the key ``key``.
+        """Return True if ``cut`` implies the condition of order ``n`` of the tree or forest ``key``.
 
-        Without truncation of dexpinv, all conditions up to the order ``cut.order`` hold. If the truncation
-        does not change one of these conditions, this condition also holds with truncation.
+        Without truncation of dexpinv, all conditions up to the order ``cut.order`` hold. With truncation, the
+        unchanged conditions among them also hold.
         """
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

@@ -54,16 +54,16 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Add the class of a family to the registry, and return this class. A registered family can be named in
-    commands and tableau files. The function may be used as a decorator.
+    """Add the class of a family to the registry, and return this class. Commands and tableau files accept the
+    name of a registered family. The function can be used as a decorator.
 
     An installed package adds a family by an entry point of the group ``orderconds.families``.
 
-    Raises :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if
-    another family has the same name. A name consists of lower-case letters, digits and ``_``.
+    Raises :class:`~orderconds.errors.InputError` if the class has no name, no description or no formats, or
+    if another family has the same name. A name consists of lower-case letters, digits and ``_``.
 
-    The family in the example has one condition for each order, the condition of the bushy tree. This tree
-    has only a root and children of the root.
+    The family in the example has one condition for each order, the condition of the bushy tree. In this tree,
+    all vertices except the root are children of the root.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -110,7 +110,9 @@ def register(family: FamilyClass) -> FamilyClass:
 
 
 def unregister(name: str) -> None:
-    """Remove a family that :func:`register` added. Built-in families cannot be removed.
+    """Remove a family that :func:`register` added.
+
+    Raises :class:`~orderconds.errors.InputError` for a built-in family.
 
     >>> unregister("rk")
     Traceback (most recent call last):
@@ -141,7 +143,8 @@ def with_conditions() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, followed by the names of unregistered families in installed packages.
+    """Return :func:`names`, followed by the names of families that installed packages provide and that are
+    not registered.
 
     >>> set(names()) <= set(installed_names())
     True
@@ -163,8 +166,8 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of the family ``name``. If the name is not registered, the entry points of installed
-    packages are read.
+    """Return the class of the family ``name``. If the name is not registered, the function looks for it in
+    the entry points of installed packages.
 
     Raises :class:`~orderconds.errors.UnknownName` if no family has this name.
 
@@ -172,7 +175,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import of the module should register the family.
+        # The decorator @register in the module registers the family during the import.
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with the decorator @register and the name {name!r}"

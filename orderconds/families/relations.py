@@ -5,9 +5,10 @@ Two laws make conditions dependent.
 
 - The elementary weights phi(t) of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) for all
   trees u and v. Here u o v is the tree u with v as an additional branch of the root (HLW VI.7.1).
-- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v). The
-  shuffle product u sh v is a sum of words, and a is linear. Therefore the coefficients of Lyndon
-  words determine all other coefficients (Reutenauer, Free Lie Algebras, Thm 6.1).
+- The coefficients a(w) of the words w in a group-like series, such as the series of a Lie group method,
+  satisfy a(u) a(v) = a(u sh v). The shuffle product u sh v is a sum of words, and a(u sh v) is the sum of
+  their coefficients. Therefore the coefficients of Lyndon words determine all other coefficients
+  (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 monomial is a sorted tuple of keys. The dictionary maps each monomial to the coefficient of the monomial."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function of a tree. For each edge at the root, the function yields three trees u, v, w. Removal of the
-edge leaves the tree u, which contains the root, and the tree v. The tree w is v o u, which is v with u as an
-additional branch of the root."""
+"""A function that moves the root of a tree along each edge at the root. For each edge, the function yields
+three trees u, v, w. Without the edge, the tree consists of u, which contains the root, and of v. The tree w
+is v o u, which is v with u as an additional branch of the root."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -78,8 +79,8 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """The weights of rooted trees of a symplectic method, as polynomials in the weights of independent trees.
-    ``independent(n)`` returns the independent trees with n vertices. ``moves`` is a function of type
+    """The elementary weights of a symplectic method as polynomials in the elementary weights of independent
+    trees. ``independent(n)`` returns the independent trees with n vertices. ``moves`` is a function of type
     :data:`Moves`.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
@@ -93,7 +94,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the weight of a tree as a polynomial in the weights of independent trees."""
+        """Return the elementary weight of a tree as a polynomial in the weights of independent trees."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]
@@ -102,7 +103,7 @@ class RootSwitching:
         goals = frozenset(self._independent(len(tree)))
         waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
         seen = {tree}
-        for root, sign, so_far in waiting:  # The loop body appends further trees to this list.
+        for root, sign, so_far in waiting:  # The loop appends trees to ``waiting``.
             if root in goals:
                 return add(so_far, {(root,): Fraction(1)}, sign)
             for u, v, moved in self._moves(root):
@@ -112,7 +113,7 @@ class RootSwitching:
                 if moved not in seen:
                     seen.add(moved)
                     waiting.append((moved, -sign, add(so_far, both, sign)))
-        raise ValueError("the weight of a tree is not determined by the weights of independent trees")
+        raise ValueError("the weights of the independent trees do not determine the weight of a tree")
 
 
 def with_relations(
@@ -120,9 +121,10 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions. Each dependent condition stores a relation, which expresses its left-hand side
-    as a polynomial in left-hand sides of independent conditions. The function ``polynomial`` maps the key of
-    a condition to this polynomial. The function ``text`` converts a key to text.
+    """Return the conditions. Each dependent condition stores its relation as text.
+
+    The function ``polynomial`` maps the key of a condition to its left-hand side, written as a polynomial in
+    left-hand sides of independent conditions. The function ``text`` converts a key to text.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -153,8 +155,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # In a group-like series, a product of coefficients of words is the coefficient of the shuffle product of
-    # these words. The shuffle product of ``factors`` contains ``word`` and lexicographically smaller words.
+    # The product of the coefficients of ``factors`` is the coefficient of their shuffle product. This shuffle
+    # product contains ``repeated`` times ``word``, and lexicographically smaller words, which are known.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
