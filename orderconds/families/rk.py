@@ -138,7 +138,7 @@ def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
 
 def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
     r"""Return one condition for each tree: the elementary weight is 1/gamma, where gamma is the density of
-    the tree (HLW III.1, Theorem 1.5). ``family`` is the label of the conditions.
+    the tree (HLW III.1, Theorem 1.5). The conditions belong to the family with the label ``family``.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3

@@ -2,8 +2,8 @@
 inverse is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the power r
 of ad. The family ``rkmk`` does not truncate the series.
 
-The left-hand side of a condition is a multiple of a coefficient in the Lie-Butcher series of the method. Each
-condition belongs to a Lyndon word.
+There is one condition for each Lyndon word over ordered trees. The left-hand side of the condition is a
+multiple of the coefficient of this word in the Lie-Butcher series of the method.
 
 Let p be the order of the tableau as a Runge-Kutta method. If r >= 2 is even, let R = r + 1. Otherwise let
 R = r. A method of ``rkmk(r)`` has the order min(p, R + 2). For even r >= 2 the Bernoulli number B_{r+1} is
@@ -91,8 +91,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in a forest. A forest is a word, and its letters are trees.
-        The branches at each vertex also form a word."""
+        """Return the length of the longest word in the forest ``key``. The trees of the forest form a word,
+        and the branches of each vertex form a word."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
@@ -215,9 +215,9 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. The letter ``tree``
-                # comes from x. The letters before ``tree`` come from u^m, and the letters after ``tree`` come
-                # from u^n. The power u^0 gives no letters. Other powers give at least one letter.
+                # The series dexpinv_u(x) is a sum of terms q u^n x u^m with numbers q. In a word, x gives the
+                # letter ``tree``, u^m gives the letters before it, and u^n gives the letters after it. The
+                # power u^m with m > 0 gives m or more letters, and u^0 gives none.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # In the product u^n x u^m, the factor u^m acts first. The letters of a word appear in
                     # the order in which they act, so the letters of u^m come first.
@@ -232,7 +232,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # With ``order`` stages, the trees with ``order`` vertices have different elementary weights.
+        # With ``order`` stages, the elementary weights of trees with ``order`` vertices are linearly
+        # independent.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

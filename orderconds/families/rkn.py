@@ -3,8 +3,8 @@ brackets of T and V are zero.
 
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
-functions of q alone, so [x,y] = 0 for all x and y in F. These brackets generate an ideal of elements that are
-zero. The shortest non-trivial bracket in this ideal is [V,[V,[V,T]]].
+functions of q alone, so [x,y] = 0 for all x and y in F. In the free algebra over T and V, the brackets [x,y]
+generate an ideal. For x != y, the shortest of these brackets is [V,[V,[V,T]]], up to the sign.
 
 The functionals that are zero on the ideal form a vector space. There is one condition for each functional in
 a basis of this space. A functional is a linear combination of words over T and V. The numbers of independent
@@ -84,8 +84,8 @@ class NystroemFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each element of :func:`functionals`.
 
-        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
-        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
+        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
+        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
         """
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
@@ -219,7 +219,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 def _potentials(weight: int) -> tuple[Series, ...]:
     """Return the elements of F whose words have ``weight`` letters. The module docstring defines the set F.
 
-    Of the two elements [x,[T,y]] and [y,[T,x]], only one is included. The difference is in the ideal.
+    The result contains only one of the two elements [x,[T,y]] and [y,[T,x]] for x and y in F, because their
+    difference is in the ideal.
     """
     if weight == 1:
         return (expand(V),)
@@ -272,8 +273,8 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Return the left-hand side of the condition of ``functional`` as a polynomial in left-hand sides of
-    independent conditions.
+    """Return a polynomial in the left-hand sides of independent conditions. The polynomial is equal to the
+    left-hand side of the condition of ``functional``.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}

@@ -47,8 +47,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. Tableau files state the order only in the family ``vrkmk(0)``, because a method has
-        the same order in both families."""
+        """Return None. Tableau files do not state the order in the family ``slgi``, because the order in the
+        family ``vrkmk(0)`` is the same."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -56,8 +56,9 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the larger of two lower bounds of the order in this family.
+        """Return a lower bound of the order of a method in this family.
 
-        One bound is the order in ``vrkmk(0)``. The other bound is the result of the base class.
+        ``orders`` maps the labels of other families to the orders of the method. The bound is at least the
+        order in the family ``vrkmk(0)``.
         """
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

@@ -171,7 +171,7 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return a splitting with random step sizes. The number of step sizes is at least the number of
+        """Return a splitting with random step sizes. The splitting has more step sizes than there are
         independent conditions up to ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
@@ -195,9 +195,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # The letters of a block act in stage i, and the letters of the next block act in stage j. In each
-            # stage, A acts before B, B acts before C, and so on. Hence i = j is possible only for letters in
-            # alphabetical order.
+            # The equal letters of a block belong to stage i, and the next block belongs to stage j. In each
+            # stage, A acts before B, B acts before C, and so on. Hence i = j is possible only if the two
+            # letters are in alphabetical order.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -213,7 +213,8 @@ def two_part_formula(word: Word) -> Formula:
 
     Let c_i = a_1 + ... + a_i. A letter B in stage i gives the factor b_i. If the first letter B is in stage
     i, each letter A before this B gives the factor c_i. If two consecutive letters B are in the stages i
-    and j, each letter A between them gives the factor c_j - c_i.
+    and j, each letter A between them gives the factor c_j - c_i. If the last letter B is in stage i, each
+    letter A after this B gives the factor sum_j a_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()

@@ -2,12 +2,12 @@
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
 An edge of a tree that points away from the root gives a factor a_ij in the elementary weight. An edge that
-points to the root gives a factor ahat_ij. The directions of the edges do not depend on the root.
+points to the root gives a factor ahat_ij. If another vertex becomes the root, no edge changes its direction.
 
-Let the root of a tree move to a neighbour. The elementary weights before and after the move add up to a
-product of elementary weights of smaller trees, because the methods satisfy b_i ahat_ij + b_j a_ji = b_i b_j.
-If the conditions of the smaller trees hold, the two conditions are equivalent. Therefore one condition
-suffices for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7).
+Let two trees differ only in the root, and let the two roots be neighbours. The elementary weights of these
+trees add up to a product of elementary weights of smaller trees, because b_i ahat_ij + b_j a_ji = b_i b_j. If
+the conditions of the smaller trees hold, the conditions of the two trees are equivalent. Therefore one
+condition suffices for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from orderconds.trees.directed import (
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees contain one rooted version of each free tree."""
+of independent trees. The independent trees are the free trees, each with one chosen root."""
 
 
 @register
@@ -77,8 +77,8 @@ class SymplecticPartitionedFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with directed edges.
 
-        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
-        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
+        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
+        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
         """
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
@@ -112,8 +112,8 @@ class SymplecticPartitionedFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the tableau (a, b) is proved to be symmetric. In this case the tableau (ahat, b)
-        is symmetric, too."""
+        """Return True if the tableau (a, b) is proved to be symmetric. If (a, b) is symmetric, the tableau
+        (ahat, b) of the momenta is symmetric, too."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:

@@ -34,7 +34,7 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees contain one rooted version of each free tree."""
+of independent trees. The independent trees are the free trees, each with one chosen root."""
 
 
 @register
@@ -63,8 +63,8 @@ class SeparableFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree with alternating colours.
 
-        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
-        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
+        The left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
+        conditions. The attribute ``relation`` of a dependent condition contains this polynomial.
         """
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)

@@ -86,8 +86,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of ``word`` in the series of one step. It is a polynomial in the
-        coefficients of the Lyndon words of odd weight. The weight of a word is the sum of its letters."""
+        """Return the coefficient of ``word`` in the series of one step, as a polynomial in the coefficients
+        of Lyndon words of odd weight. The weight of a word is the sum of its letters."""
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -145,10 +145,10 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The step is symmetric, so words of even weight have the coefficient zero in the logarithm of the step.
-    # Each way to cut the word into m parts gives a term of this coefficient. The term is (-1)^(m+1)/m times
-    # the coefficients of the parts in the series of the step. The term with m = 1 is the coefficient of the
-    # whole word. Hence this coefficient is minus the sum of the terms with m > 1.
+    # Let S be the series of one step. The step is symmetric, so the coefficient of a word of even weight in
+    # log(S) is zero. This coefficient is a sum over all ways to cut the word into m = 1, 2, ... pieces. Each
+    # summand is (-1)^(m+1)/m times the product of the coefficients of the m pieces in S. For m = 1, it is the
+    # coefficient of the word in S. Hence the coefficient in S is minus the sum of the summands with m > 1.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:
