@@ -25,8 +25,8 @@ from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
-of independent trees. The independent trees contain one rooted version of each free tree that no edge divides
-into two equal halves."""
+of independent trees. The independent trees are the free trees that no edge divides into two equal halves. One
+vertex of each independent tree is chosen as its root."""
 
 
 @register
@@ -51,15 +51,15 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of the given order, one for each free tree. If an edge divides
-        a free tree into two equal halves, the tree is left out."""
+        """Return the independent conditions of the given order. They belong to the free trees that no edge
+        divides into two equal halves."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of the given order, one for each rooted tree.
 
-        A condition is dependent if it follows from the independent conditions. Its left-hand side is a
-        polynomial in their left-hand sides. The attribute ``relation`` contains this polynomial.
+        The attribute ``relation`` of a dependent condition expresses the left-hand side as a polynomial in
+        left-hand sides of independent conditions.
         """
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 

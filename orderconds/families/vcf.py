@@ -42,10 +42,9 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    The conditions are evaluated for random methods in order to find independent conditions. In the random
-    methods, the update contains ``update`` exponentials, and each stage contains ``stage`` exponentials. The
-    default values grow with the order. With the default values, each elementary Hamiltonian gives one
-    independent condition.
+    To find independent conditions, all conditions are evaluated for random methods. A random method has
+    ``update`` exponentials in the update and ``stage`` exponentials in each stage. The default values grow
+    with the order. They are large enough to find one independent condition for each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -68,7 +67,8 @@ class VariationalCommutatorFree(ActionFamily):
         self.update, self.stage = update, stage
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
-        """Return the action series of a commutator-free method, or of a tableau (A, b)."""
+        """Return the action series of a commutator-free method. A tableau (A, b) is interpreted as a
+        Crouch-Grossman method."""
         if isinstance(method, RungeKutta):
             require_nonzero_weights(self.label(), ring, method.b)
             return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, method.A, method.b))
@@ -96,9 +96,9 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None.
+        """Return this family if the file of ``tableau`` should state the order in this family, else None.
 
-        The file of such a method should state the order in this family.
+        The file should state this order if the method is commutator-free and has no zero weights b_i.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
@@ -106,9 +106,10 @@ class VariationalCommutatorFree(ActionFamily):
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric."""
+        """Return True if the exponentials of a commutator-free method form a palindrome. Then the method is
+        symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations and exponentials in one step."""
+        """Return the numbers of field evaluations and exponentials in one step, or None if unknown."""
         return commutator_free_work(tableau)

@@ -1,9 +1,9 @@
 """Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
-Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 of their
-text states the six conditions of order 3. The module computes the conditions of every order from the action
-series. This series is the expansion of the discrete action.
+Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 states the six
+conditions of order 3. The module computes the conditions of all orders from the action series. This series is
+the expansion of the discrete action.
 """
 
 from __future__ import annotations
@@ -79,9 +79,9 @@ class VariationalCrouchGrossman(ActionFamily):
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric."""
+        """Return True if the exponentials of the method form a palindrome. Then the method is symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations and exponentials in one step."""
+        """Return the numbers of field evaluations and exponentials in one step, or None if unknown."""
         return crouch_grossman_work(tableau)

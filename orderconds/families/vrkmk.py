@@ -2,9 +2,11 @@
 differential of exp. The methods truncate this series after the power r of ad.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Let p be the order of the
-symplectic partitioned Runge-Kutta method with the same tableau. Let R = r + 1 for even r >= 2, and R = r for
-all other r. The order of ``vrkmk(r)`` is min(p, R + 2). For some r, this number is larger than the bound in
-Theorem 3.5.3 of Bogfjellmo and Marthinsen.
+symplectic partitioned Runge-Kutta method with the same tableau.
+
+For even r >= 2, the Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1
+for even r >= 2, and R = r for all other r. The order of ``vrkmk(r)`` is min(p, R + 2). For some r, this
+number is larger than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen.
 """
 
 from __future__ import annotations
@@ -58,15 +60,17 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in the formula for the coefficient of an action tree."""
+        """Return the maximal length of the words from which the coefficient of the action tree ``key`` is
+        computed. The letters of these words are smaller trees."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order, or None if dexpinv is not truncated or ``order`` < 3.
+        """Return a condition of the given order that shows the effect of the truncation at order R + 3.
 
-        Let R be the number in the module docstring. If ``order`` is R + 3, no method with truncated dexpinv
-        satisfies the returned condition. The truncation changes no condition of an order below R + 3.
+        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies the
+        returned condition and all other conditions up to this order. Below order R + 3, the truncation
+        changes no condition. If dexpinv is not truncated or ``order`` < 3, return None.
         """
         if self.cutoff is None or order < 3:
             return None

@@ -36,7 +36,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family ``vrkmk_pade(r)``. A tableau (A, b) without zero weights defines a method. The option
     ``cutoff`` is the number r: the series of dexp is truncated after the power r of ad.
 
-    If ``cutoff`` is None, dexp is not truncated, and the methods are those of the family ``vrkmk``.
+    If ``cutoff`` is None, dexp is not truncated, and the methods are those of ``vrkmk`` without truncation.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -74,17 +74,18 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. No tableau file has to state the order in this family."""
+        """Return None, because tableau files do not state the order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return this family as the only variant."""
+        """Return this family alone, without variants for other values of ``cutoff``."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the smaller of 2 and the order in the family ``rk``."""
+        """Return a lower bound of the order: the smaller of 2 and the order in the family ``rk``. Bounds for
+        truncated dexpinv are not used, because this family truncates dexp."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None. This family does not describe the conditions that the truncation leaves unchanged."""
+        """Return None, because the description in ``vrkmk`` requires a truncation of dexpinv, not of dexp."""
         return None

@@ -3,7 +3,7 @@
 One step of a method and the exact flow are both expanded in series over words. In a word, the letters appear
 in the order in which they act. The coefficients of both series satisfy the shuffle relations. Therefore the
 coefficients of Lyndon words are independent and determine the coefficients of all words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1).
+Reutenauer, Free Lie Algebras, Thm 6.1). The conditions of Lyndon words imply all other conditions.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum. The left-hand side is
-        ``scale(word)`` times the coefficient of the word in the series of one step."""
+        """Return the left-hand side of the condition of a word as an index sum. Both sides of the
+        condition contain the factor ``scale(word)``."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -58,9 +58,11 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return a method whose coefficients are random elements of ``ring``. Each element contains one
-        number for each of several random methods. Each method has enough coefficients to distinguish the
-        conditions up to ``order``."""
+        """Return a method whose coefficients are random elements of ``ring``. The number of coefficients is
+        sufficient to distinguish the conditions up to ``order``.
+
+        An element of ``ring`` is a vector of residues, so the result can represent several methods.
+        """
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. The conditions of these words are independent. The
@@ -92,8 +94,8 @@ class WordFamily(Family):
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all words of weight ``order``.
 
-        In a dependent condition, the left-hand side is a polynomial. The variables are left-hand sides of
-        independent conditions. The attribute ``relation`` contains this polynomial.
+        Only the conditions of Lyndon words are independent. The attribute ``relation`` of a dependent
+        condition expresses the left-hand side as a polynomial in left-hand sides of independent conditions.
         """
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
@@ -104,8 +106,8 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of the condition of each word. It is the coefficient of the word in the
-        series of one step, multiplied by :meth:`scale`."""
+        """Return the left-hand sides of ``conditions``. For a condition of a word, the left-hand side is
+        ``scale(word)`` times the coefficient of the word in the series of one step."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 

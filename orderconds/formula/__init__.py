@@ -1,7 +1,7 @@
 r"""Formulas with sums over indices. Order conditions are printed in this form.
 
 A formula is built from coefficients (``b_i``, ``a_ij``, ``c_i``, ``ahat_ij``, ``beta_Jj`` ...) by products,
-powers, linear combinations and sums over indices. The indices of a sum may satisfy relations such as i < j.
+powers, linear combinations and sums over indices. A relation such as i < j can restrict a sum.
 Formulas are only used for printing. The command ``orderconds check`` evaluates conditions without formulas.
 
 >>> b, a, c = coefficient("b", "i"), coefficient("a", "i", "j"), coefficient("c", "j")

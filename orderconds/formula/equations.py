@@ -85,8 +85,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before plus and minus signs. A sign is ignored inside braces. A sign is also
-    ignored inside more than ``within`` nested pairs of brackets."""
+    """Split a LaTeX formula before plus and minus signs. The formula is not split inside braces, nor
+    inside more than ``within`` nested pairs of brackets."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

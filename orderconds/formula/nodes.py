@@ -70,7 +70,8 @@ class Total(Formula, frozen=True):
 
 
 class IndexSum(Formula, frozen=True):
-    """A sum of ``body`` over all values of ``indices`` that satisfy ``relations``."""
+    """The sum of the formula ``body`` over ``indices``. Only index values that satisfy ``relations``
+    contribute."""
 
     indices: tuple[str, ...]
     relations: tuple[Relation, ...]
@@ -126,8 +127,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Every factor needs a key. The key of a factor that contains sums is slow to compute. If only one factor
-    # contains sums, no other factor is equal to this factor. In this case, the key of this factor is None.
+    # Equal factors have equal keys. Only the keys of coefficients are fast to compute. If only one factor is
+    # not a coefficient, no other factor is equal to it, and None is sufficient as its key.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -166,10 +167,11 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Return the sum of ``body`` over ``indices`` that satisfy ``relations``.
+    """Return the sum of the formula ``body`` over ``indices``. Only index values that satisfy ``relations``
+    contribute.
 
-    A rational factor of ``body`` is written before the sum. If factors of ``body`` are sums, the result is
-    one sum over all indices.
+    A rational factor of ``body`` is written before the sum. If ``body`` contains sums as factors, the result
+    is a single sum over all indices.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -207,8 +209,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
     bound indices get names that no other formula contains.
 
-    Therefore the results of two calls have no bound index in common, and their product can become one sum.
-    :func:`named` replaces the unique names by short names.
+    If a product contains several results, unique names allow :func:`index_sum` to join the sums into a single
+    sum. :func:`named` replaces the unique names by short names.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

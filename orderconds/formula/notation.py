@@ -16,11 +16,13 @@ HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 
 
 class Notation(Struct, frozen=True):
-    """The signs and brackets of one notation, ASCII or LaTeX.
+    """The symbols and brackets of one notation, ASCII or LaTeX.
 
     ``names`` maps names of coefficients to symbols, such as ``ahat`` to ``\\hat{a}``. ``total`` is the
-    summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols in the notation. ``reversed_signs`` maps
-    ``<`` to the symbol for ``>``, and ``<=`` to the symbol for ``>=``.
+    summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols.
+
+    A relation can be written in reverse order, such as ``j > i`` instead of ``i < j``. For this purpose,
+    ``reversed_signs`` maps ``<`` to the symbol for ``>``, and ``<=`` to the symbol for ``>=``.
     """
 
     names: Mapping[str, str]

@@ -54,8 +54,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     free, the lower limit of j is i + 1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # The result is an argument list of sympy.Sum. In this list, the limits of an index may contain only
-        # later indices. Therefore the chosen index must not occur in the limits of the remaining indices.
+        # The result is an argument list of sympy.Sum. The limits of an index may contain only indices that
+        # come later in this list. Therefore the next index must not occur in the limits of remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
