@@ -2,7 +2,7 @@
 
 The algorithms of ``orderconds`` use only the interface :class:`Ring`. Therefore each algorithm can compute
 with all these scalars. The names in ``__all__`` are imported on first use (PEP 562). Outside
-``orderconds.ring``, only the modules in a list in pyproject.toml may import python-flint.
+``orderconds.ring``, only the modules under ``ignore_imports`` in pyproject.toml may import python-flint.
 """
 
 from __future__ import annotations

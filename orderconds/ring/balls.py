@@ -1,8 +1,8 @@
 """Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
 A ball is an interval with a midpoint and a radius. The ball contains one unknown real number. If the midpoint
-and the radius are zero, this number is zero. If the interval contains zero and other numbers, it is not known
-whether the number is zero.
+and the radius are zero, the unknown number is zero. If the ball contains zero and other numbers, it is not
+known whether the unknown number is zero.
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a negative number, and if the sign of x is not proved.
+        If ``index`` is even, x must be proved to be nonnegative. If ``index`` is odd, x must be proved to be
+        nonnegative or negative. Otherwise ValueError is raised.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -81,8 +82,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return max(abs(e), abs(f)), where e and f are the binary exponents of the midpoint and of the
-        radius."""
+        """Return a measure of the size of x: the larger of abs(e) and abs(f). Here e and f are the binary
+        exponents of the midpoint and of the radius."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -107,7 +108,7 @@ class Balls:
         """Return x as the text of a coefficient in a tableau file.
 
         A ball with radius zero is written exactly. A ball with positive radius is written as a decimal that
-        ends with ``~``. The sign ``~`` means an error of at most one unit in the last digit.
+        ends with ``~``. The mark ``~`` means an error of at most one unit in the last digit.
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -195,7 +196,7 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # The mantissa and the exponent are exact integers. In contrast, abs(x) is rounded.
+    # abs(x) would be rounded to the working precision. The mantissa and the exponent are exact integers.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
@@ -206,8 +207,7 @@ def _supported_places(radius: fmpq) -> int:
     If the midpoint of a ball with this radius is rounded to d decimal places, the result differs from each
     number in the ball by at most 10^-d.
     """
-    # ``str`` converts flint integers of every size, but Python integers of at most 4300 digits. radius.p and
-    # radius.q are flint integers.
+    # The digits of flint integers are counted, because ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1

@@ -1,4 +1,4 @@
-"""Conversion of exact numbers to decimals and doubles. All results are correctly rounded.
+"""Conversion of exact numbers to correctly rounded decimals and doubles.
 
 An irrational number is given by a function that computes an enclosing ball at any precision. The precision is
 increased until both end points of the ball round to the same decimal or double.
@@ -69,8 +69,8 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return a decimal number as text. ``figures`` contains its digits without the point. ``exponent`` is
-    the power of ten of the first digit."""
+    """Return a decimal number as text. ``figures`` contains its digits without the point. The first
+    digit is multiplied by 10^exponent."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

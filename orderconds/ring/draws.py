@@ -1,8 +1,8 @@
 """Pseudorandom numbers, computed with the hash function SHA-256.
 
-Some randomised proofs evaluate an object at random points or modulo a random prime. The random numbers are
-computed from a description of the object. Fixed numbers would be unsafe: somebody who knows the numbers could
-construct an incorrect object that passes the test.
+Some randomised proofs test identities at random points or modulo a random prime. The random numbers are
+computed from a description of the coefficients in the tableau file. Fixed numbers would be unsafe: somebody
+who knows the numbers could choose coefficients for which a false identity passes the test.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from flint import fmpz
 
 
 class Draws:
-    """A generator of pseudorandom numbers. The constructor takes texts that describe an object. A number is
-    computed from these texts, a name and a number of bits.
+    """A generator of pseudorandom numbers. The constructor takes texts that describe the tested object. Each
+    number is computed from these texts, a name and a number of bits.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

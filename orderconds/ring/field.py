@@ -164,8 +164,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q that consists of products of powers of the generators. The tuple of the
-        exponents represents a product."""
+        """A basis of the field over Q. The basis elements are products of powers of the generators. A product
+        is represented by the tuple of its exponents."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -371,7 +371,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # Numbers in fields of different towers cannot be compared.
+        except TypeError:  # Numbers in fields of different towers count as unequal.
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 

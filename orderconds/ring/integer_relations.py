@@ -16,12 +16,12 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""Random numbers can satisfy a relation with small coefficients by chance. The function :func:`relation`
-returns a relation only if the probability of this coincidence is about 2^-GUARD or less."""
+"""A safety margin in bits. Let P be the probability that random numbers have an equally good relation by
+chance. If P is larger than about 2^-GUARD, the function :func:`relation` returns None."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return an integer relation of the numbers in ``values``, or None if no relation is found.
+    """Return an approximate integer relation of the numbers in ``values``. Return None if none is found.
 
     Let x_k be the numbers in ``values``. The result contains small integers c_k. The absolute value of
     sum_k c_k x_k is a small multiple of 2^-bits.
@@ -63,7 +63,7 @@ def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
     The element is a root of a quadratic polynomial with small integer coefficients. The value of this
-    polynomial at x is a small multiple of 2^-bits. Return None if no polynomial is found.
+    polynomial at x is a small multiple of 2^-bits. Return None if no such element is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

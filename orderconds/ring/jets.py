@@ -17,8 +17,8 @@ from orderconds.ring.protocol import Element
 
 
 class Jets:
-    """The ring of functions of ``width`` variables. An element encloses the value and the gradient of a
-    function, at one point or at all points of a box.
+    """The ring whose elements enclose the value and the gradient of a function of ``width`` variables. The
+    enclosures hold at one point or at all points of a box.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):

@@ -3,8 +3,8 @@
 Suppose that the nodes c_1, ..., c_s of a method are different, and that they are the roots of a polynomial M
 of degree s over Q. The nodes of Gauss, Radau and Lobatto methods have this property. Each vector with s
 entries then has the form (p(c_1), ..., p(c_s)) for exactly one polynomial p of degree below s. The
-componentwise product of two vectors corresponds to the product of their polynomials modulo M. The
-multiplication by the matrix A of the method corresponds to a linear map of polynomials.
+componentwise product of two vectors corresponds to the product of their polynomials modulo M. Let A be
+the matrix of the method. The polynomial of the vector A v depends linearly on the polynomial of the vector v.
 
 Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. The module requires two
 more properties of the method:
@@ -16,8 +16,8 @@ Order conditions of such a method can be computed with rational polynomials. Thi
 a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. For a collocation method, the linear map of the matrix A maps a polynomial p to its integral
-from 0 to z, modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
+number field. For a collocation method, multiplication by A maps a polynomial p to its integral from 0 to z,
+modulo M. For other methods, :class:`NodalAlgebra` adds corrections to the integral.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
 """The precision, in bits, of the polynomial interpolation at the nodes. The interpolation returns a ball
-around each coefficient. The candidate is the rational number with the smallest denominator in this ball."""
+around each coefficient. The candidate for a coefficient is a rational number in its ball with the smallest
+denominator."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -45,11 +46,12 @@ class NodalAlgebra:
     A polynomial p represents the vector with the entries p(c_i). Multiplication by a matrix of the method is
     a linear map from Q[z]/M to itself. The scalar product with the weights is a linear map from Q[z]/M to Q.
 
-    For a collocation method, the first map is the integral of p from 0 to z, modulo M. The second map is the
-    integral of p from 0 to 1. For other methods, two attributes store the deviations from these integrals:
+    For a collocation method, multiplication by the matrix gives the integral of p from 0 to z, modulo M. The
+    scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes store
+    corrections to the integrals:
 
-    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. The linear map sends
-      z^k to the sum of z^(k+1)/(k+1) and the polynomial d, modulo M.
+    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by this
+      matrix maps z^k to the sum of z^(k+1)/(k+1) and the polynomial d, modulo M.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 
@@ -140,7 +142,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. The key compares coefficients as Python objects, not by value."""
+    """A cache key for a method. Two keys are equal if their coefficients are the same Python objects."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -228,8 +230,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the polynomial with the coefficients ``guess(values)``. Return None if the values of this
-    polynomial at the nodes differ from ``values``."""
+    """Return the polynomial whose values at the nodes are ``values``. Return None if its coefficients differ
+    from the rational candidates ``guess(values)``."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -1,6 +1,7 @@
 """Truncated power series in the step size h, over any base ring.
 
-A step of a method with power series as scalars gives the Taylor expansion of the step in h.
+If one step of a method is computed with these series, the result is the Taylor expansion of the numerical
+solution in h.
 """
 
 from __future__ import annotations
@@ -55,8 +56,8 @@ class PowerSeries:
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Return x as text, in ascending powers of h. Coefficients that are sums are in parentheses, except
-        the constant term."""
+        """Return x as text, in ascending powers of h. If the coefficient of a positive
+        power of h is a sum, the sum is in parentheses."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
@@ -80,7 +81,7 @@ class PowerSeries:
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the smallest k for which the coefficient of h^k may be nonzero.
+        """Return the smallest k for which the coefficient of h^k is not proved to be zero.
 
         Return order + 1 if all coefficients are proved to be zero.
         """
