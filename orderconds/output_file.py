@@ -19,8 +19,8 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 
 
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
-    """Write each content to the file with the given path. The files have temporary names until all files are
-    on the disk. Then the files are renamed in the given order.
+    """Write files. ``contents`` maps the path of each file to its content. The files have temporary names
+    until all files are on the disk. Then the files are renamed in the order of ``contents``.
 
     If ``private`` is true, only the user can read the files. If ``private`` is false and a file already
     exists, the new file has the permissions of the old file. If a path is a symbolic link, the new file
@@ -57,7 +57,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
 
 
 def is_temporary(name: str) -> bool:
-    """Return True if a file with this name may be a temporary file of :func:`write_files`.
+    """Return True if the name has the form of the temporary names in :func:`write_files`.
 
     >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
     (True, False)

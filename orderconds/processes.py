@@ -33,7 +33,7 @@ def in_processes(
     cases, the calling process runs the jobs itself and starts no workers: there is only one job,
     ``processes`` is 1, or the calling process is a worker.
 
-    If a job raises an error, this function raises the error, too. Raises InputError if a worker was killed.
+    If a job raises an error, this function raises the error. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -105,8 +105,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Run the jobs that arrive at the connection, and send the results back. Return when an empty tuple
-    arrives.
+    """Receive jobs from the parent process, run the jobs, and send the results to the parent process. An
+    empty tuple instead of a job ends the function.
 
     This is the main function of a worker process. The worker ignores Ctrl-C. After Ctrl-C, the parent process
     terminates its workers.

@@ -5,8 +5,8 @@ The plugin is active only if one of its flags is given. The flags ``--orderconds
 ``--orderconds-complete``, ``--orderconds-certified``, ``--orderconds-execute`` and ``--orderconds-tolerance``
 correspond to options of ``orderconds check``.
 
-Files without a tableau are skipped. At the end, each skipped file is printed with the reason. The
-test of a tableau that claims no order is skipped. With ``--orderconds-require-claims``, this test fails.
+Files without a tableau are skipped. At the end, pytest prints the names of the skipped files and the reasons.
+The test of a tableau that claims no order is skipped. With ``--orderconds-require-claims``, this test fails.
 
 A Python file that contains a tableau is parsed and not imported. The file is executed only with
 ``--orderconds-execute``.
@@ -25,8 +25,8 @@ FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
     "--orderconds-complete": "like --orderconds; require a claim in every family to which the method "
-    "belongs; no claim is needed if the order in another family implies this order",
-    "--orderconds-certified": "like --orderconds; a claimed order without a proof fails",
+    "belongs; if the order in a family follows from another family, no claim is needed",
+    "--orderconds-certified": "like --orderconds; a test fails if a claimed order is not proved",
     "--orderconds-execute": "like --orderconds; a Python file is executed, and its arrays are read",
 }
 
@@ -142,7 +142,7 @@ class TableauItem(pytest.Item):
             raise ClaimFails(report.summary())
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the text of a failure. For a false claim or an invalid file, it contains no traceback."""
+        """Return the text of a failure. For a false claim or an invalid file, the text has no traceback."""
         from orderconds.errors import InputError
 
         if isinstance(excinfo.value, ClaimFails | InputError):
@@ -156,5 +156,4 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """The error for a file that fails the test. It has one of three causes: a claim is false, a claim cannot
-    be decided, or a required claim is missing."""
+    """The error if a claim is false, a claim cannot be decided, or a required claim is missing."""

@@ -42,9 +42,9 @@ class Certificate:
     - ``tableau``: the coefficients of the solution, as balls.
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
-    - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: error bounds of published decimals. The table ``[proof.printed]`` contains the decimals.
-      The keys are the names of the decimals. The error is the distance from the exact number.
+    - ``radius``: a bound of the largest error of a decimal in the file.
+    - ``printed``: a map from the names of published decimals to bounds of their errors. The table
+      ``[proof.printed]`` contains the published decimals.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -59,8 +59,8 @@ class Certificate:
 
     def as_json(self) -> dict[str, object]:
         """Return the proved statement as a dictionary for JSON. The entries include the conditions, the
-        unknowns and the error bounds. The entry ``pins`` lists the decimals that are taken as exact
-        numbers."""
+        unknowns and the error bounds. The entry ``pins`` lists the decimals that the proof treats
+        as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -75,8 +75,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near the
-    decimals of ``tableau``.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its
+    decimals.
 
     The proof uses ball arithmetic with at least ``bits`` bits. The precision grows with the number of digits
     of the decimals. If the proof fails, :class:`~orderconds.proof.krawczyk.NotProved` is raised with the
@@ -92,8 +92,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A key in the cache of proofs. Keys are equal if they contain the same object, or if they contain equal
-    tableaux from files with equal content."""
+    """A key in the cache of proofs. Two keys are equal if they contain the same tableau object. Keys are
+    also equal if they contain equal tableaux from files with equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -110,8 +110,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the tableau file, or None if there is no file. The content is also None if the
-        [proof] table of the tableau was replaced after reading."""
+        """The content of the tableau file, or None if there is no file. If the [proof] table of the tableau
+        was replaced, the file does not describe the tableau, and the content is None."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -180,8 +180,7 @@ def _certificate(
 
 
 def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
-    """Yield each decimal that is proved to be rounded incorrectly. The error of such a decimal is larger than
-    half a unit of the last digit."""
+    """Yield the decimals whose errors are proved to be larger than half a unit of the last digit."""
     for unknown, x in zip(proof.unknowns, solution, strict=True):
         given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
         low, high = endpoints(x)
@@ -198,7 +197,7 @@ def _decimal(value: fmpq, unit: fmpq) -> str:
 
 
 def _distance(x: arb, to: fmpq) -> fmpq:
-    """Return the largest distance between the number ``to`` and a number in the ball ``x``."""
+    """Return the maximum of abs(y - to) over all y in the ball ``x``."""
     low, high = endpoints(x)
     return max(abs(low - to), abs(high - to))
 

@@ -28,24 +28,24 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family. If this number is too small, the computation is
-repeated with more methods."""
+"""The initial number of random methods of the sub-family. If ``SPARE`` requires more random methods, the
+computation is repeated."""
 
 SPARE = 24
-"""The number of random methods must exceed the number of terms in a linear combination by at least ``SPARE``.
-Otherwise independent conditions could seem dependent by accident."""
+"""The number of random methods must exceed the number of unknown coefficients of a polynomial by ``SPARE``.
+With fewer random methods, independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
 """The size, in bits, of the primes modulo which conditions are evaluated. A residue of this size fits in a
 machine word."""
 
 MAX_PRIMES = 24
-"""The number of primes after which the search ends. A rational coefficient is reconstructed from its residues
-modulo several primes. Coefficients with larger numerators and denominators need more primes."""
+"""The maximal number of primes. A rational coefficient is reconstructed from its residues modulo several
+primes. Coefficients with larger numerators and denominators need more primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to a linear combination of monomials, for one prime. Modulo this prime,
-the left-hand side of the condition is equal to the linear combination. A monomial is a product of left-hand
+"""A map from each dependent condition to a linear combination of monomials. Modulo one prime, the left-hand
+side of the condition is equal to the linear combination. A monomial is a product of left-hand
 sides of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where sqrt(d) is the
 only square root in the tableau file."""
 
@@ -56,8 +56,8 @@ class Dependences:
 
     - ``pivots``: the independent conditions.
     - ``primes``: the primes of the computation.
-    - ``residues``: one map for each prime. The map contains a polynomial modulo this prime for each dependent
-      condition.
+    - ``residues``: one map for each prime. The map expresses the left-hand sides of the dependent conditions
+      as polynomials modulo the prime.
     """
 
     pivots: tuple[OrderCondition, ...]
@@ -91,11 +91,12 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions of a sub-family. The first result is computed modulo
-    one prime, the second result modulo two primes, and so on.
+    """Yield the independent and the dependent conditions of a sub-family. Each suitable prime yields a new
+    result, which combines the residues modulo all suitable primes.
 
-    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. Modulo
-    an unsuitable prime, too few conditions are independent. The result for such a prime is discarded.
+    A prime is unsuitable if fewer conditions are independent modulo this prime than modulo another prime. At
+    most :data:`MAX_PRIMES` primes are tried. ``candidates`` contains the conditions of each order. ``draws``
+    selects the primes and the random numbers. ``surd`` is the only radical in the formulas, or None.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -136,10 +137,10 @@ def _modulo(
     """Return two values: the independent conditions modulo one prime, and a map from each dependent condition
     to a polynomial in the independent conditions.
 
-    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Modulo the
-    prime, d has two square roots r and -r. Each polynomial is computed twice, with r and with -r in place of
-    sqrt(d). The numbers x and y follow from the two polynomials. If the independent conditions for r and for
-    -r differ, return None.
+    If the formulas contain a square root sqrt(d), the polynomials have coefficients x + y sqrt(d). Let r
+    be a square root of d modulo the prime. Each polynomial is computed twice, with r and with -r in place of
+    sqrt(d). The numbers x and y follow from the two polynomials. If r and -r lead to different independent
+    conditions, return None.
     """
     prime = sampling.prime
     if surd is None:
@@ -186,11 +187,11 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """A product of conditions, evaluated modulo a prime.
+    """The two sides of a product of conditions, evaluated modulo a prime.
 
     - ``factors``: the conditions.
-    - ``members``: the product of the left-hand sides at each random method of the sub-family.
-    - ``flow``: the product of the right-hand sides.
+    - ``members``: the products of the left-hand sides, one for each random method of the sub-family.
+    - ``flow``: the product of the right-hand sides, which belong to the exact flow.
     """
 
     factors: Monomial
@@ -218,8 +219,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return the left-hand sides of the conditions at ``count`` random methods, and the right-hand sides.
-        In the formulas, the residue ``root`` is used as the value of the only square root. If ``root`` is
-        None, random residues are used as the values of all roots."""
+        The residue ``root`` is used as the value of the only square root in the formulas. If ``root`` is
+        None, random residues are used as the values of roots."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -233,9 +234,9 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. In
-    the formulas of a tableau file, random residues are used as the values of roots. If ``square_root`` is
-    given, this residue is used as the value of every square root."""
+    """A ring whose elements consist of ``count`` residues modulo a prime, one for each random method. The
+    value of a root is not computed, but replaced by random residues. If the formulas contain only one square
+    root, its value is the residue ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -243,15 +244,13 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return residues that are used as values of the ``index``-th root of x. The same arguments always
-        give the same residues."""
+        """Return residues that replace the ``index``-th root of x. Equal arguments give equal residues."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return random residues that are used as values of the root ``name``. The same name always gives the
-        same residues."""
+        """Return random residues that replace the root ``name``. Equal names give equal residues."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

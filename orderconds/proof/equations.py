@@ -1,14 +1,15 @@
 """The equations for the decimals in a tableau file, and the orders of the method. The decimals satisfy the
-equations approximately. The exact solution near the decimals contains the coefficients of the method.
+equations approximately. The coefficients of the method are the exact solution near the decimals.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
 verified exactly, from the formulas in the file and not from the decimals:
 
-- ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
-  order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (Hairer, Lubich
-  and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A composition of midpoint rules has
-  the same order in other families, such as ``rk`` and ``cg`` (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+- ``symmetric``: a palindromic composition of a symmetric method. The order of such a composition is even.
+  Therefore only conditions of odd order are needed. There is one condition for each Lyndon word in the
+  letters 1, 3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A
+  composition of midpoint rules has the same order in other families, such as ``rk`` and ``cg``
+  (Bogfjellmo and Marthinsen, Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: each condition is defined by a word. Up to order 2s,
   words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
@@ -48,27 +49,27 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations that determine the decimals of ``tableau``.
+    """The equations for the decimals of ``tableau``.
 
-    ``facts`` contains pairs (family, order). A method that satisfies the equations has at least the given
-    order in each family.
+    ``facts`` contains pairs (family, order). If a method satisfies the equations, it has at least this order
+    in this family.
     """
 
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The number s of nodes for a Magnus method on Gauss nodes, if the order in ``proof`` is at most 2s. Only
-    conditions of words in the letters 1, ..., s are used. For other methods, the value is None."""
+    """The number s, if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most
+    2s. Then only conditions for words in the letters 1, ..., s are used. For other methods, the value is
+    None."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The order conditions in the equations, for the reductions ``spelling`` and ``low-storage``. Otherwise,
-    the value is None."""
+    """For the reductions ``spelling`` and ``low-storage``, the conditions that remain after the reduction.
+    Otherwise, the value is None."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
-    """The orders of the embedded method, as pairs (family, order). There are no pairs if ``lower`` is
-    empty."""
+    """The orders of the embedded method that follow from ``lower``, as pairs (family, order)."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
@@ -121,8 +122,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # ``family.conditions`` omits conditions that are dependent modulo primes. Such a condition could be
-    # independent over the rationals Q. Therefore the dependences are verified over Q.
+    # ``family.conditions`` omits conditions that depend on other conditions modulo primes. The proof
+    # requires that the omitted conditions also depend on other conditions over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -196,8 +197,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    The embedded update must consist of the exponentials of the method and one additional exponential. Its
-    order must not exceed the order in ``proof``. Otherwise the result is empty.
+    The embedded update must consist of the exponentials of the method and one additional exponential. The
+    order of the embedded method must not exceed the order in ``proof``. Otherwise the result is empty.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
@@ -208,8 +209,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the order conditions that must be solved for the reduction ``spelling``. Together with the
-    formulas in the tableau file, they imply all conditions up to the order in ``proof``."""
+    """Return the order conditions that remain after the reduction ``spelling``. These order conditions and
+    the formulas in the tableau file imply all conditions up to the order in ``proof``."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -224,8 +225,8 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s.
-    Otherwise, return None. A node that depends on a rounded decimal is not accepted as a Gauss node.
+    """If the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s, return s.
+    Otherwise, return None. If a node depends on a rounded decimal, return None, too.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -241,10 +242,10 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Return True if ``nodes`` are proved to be the s Gauss nodes c_1, ..., c_s on [0, 1].
+    """Return True if the s numbers c_1, ..., c_s in ``nodes`` are proved to be the Gauss nodes on [0, 1].
 
-    The function tests that the polynomial (t - c_1) ... (t - c_s) is orthogonal on [0, 1] to all polynomials
-    of degree less than s.
+    The function tests that the polynomial (t - c_1) ... (t - c_s) is orthogonal to all polynomials of degree
+    less than s.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
@@ -272,10 +273,11 @@ def _reached(proof: Proof, order: int) -> int:
 
 
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
-    """Return the indices of the equations that are not satisfied identically.
+    """Return the indices of all equations except identities. An identity holds for all values of the
+    unknowns.
 
-    ``values`` contains one jet for each equation: the value and the gradient of the equation in ball
-    arithmetic over a box. If a ball of the jet does not contain zero, the equation is not an identity. All
+    ``values`` contains one jet for each equation. A jet encloses the value and the gradient of the equation
+    over a box by balls. If one of these balls does not contain zero, the equation is not an identity. All
     other equations are evaluated exactly, with random numbers for the unknowns
     (:mod:`orderconds.tableau.random_member`).
 

@@ -28,8 +28,8 @@ from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
-"""A function that converts a method from the format of its tableau file to the format in which a family
-evaluates its conditions. The arguments are the method and the ring of its coefficients."""
+"""A function that converts a method from the format of the tableau file to the format in which a family
+evaluates its conditions. The arguments are the method and the ring of the coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
 """The product of the left-hand sides of several conditions, represented by the tuple of these conditions."""
@@ -55,8 +55,9 @@ class Surd:
 
 
 def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
-    """Return the only radical in the formulas of a tableau file. Return None if the formulas contain no
-    radical or several radicals, or if the radical is not the square root of an exact rational number.
+    """Return the only radical in the formulas of a tableau file. The radical must be the square root of an
+    exact rational number. If the formulas contain no radical, several radicals or another radical, return
+    None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
@@ -84,29 +85,27 @@ def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
 
 @dataclass(frozen=True)
 class ExactMember:
-    """The left-hand sides of conditions, evaluated at one random member (method) of a sub-family. ``surd`` is
-    the square root that occurs in the coefficients of the member, or None if there is no square root."""
+    """The left-hand sides of conditions, evaluated at one random member (method) of a sub-family. If the
+    coefficients of the member contain a square root, ``surd`` is this square root, else None."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Return True if a condition holds at this member of the sub-family.
-
-        The probability that a false condition holds at a random member is negligible
-        (:mod:`orderconds.tableau.random_member`).
-        """
+        """Return True if a condition holds at this random member. If the condition does not hold for the
+        whole sub-family, the probability of the result True is negligible
+        (:mod:`orderconds.tableau.random_member`)."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the conditions in ``combination``. Return False if
         ``combination`` is None.
 
-        ``combination`` is a polynomial p in other conditions. The left-hand side of ``condition`` must equal
-        p at the left-hand sides of the other conditions. The right-hand side must equal p at the right-hand
-        sides. The left-hand sides are tested only at this random member. The probability of a wrong result
-        True is negligible.
+        ``combination`` is a polynomial p. If p is evaluated at the left-hand sides of the other conditions,
+        the value must be the left-hand side of ``condition``. The same must hold for the right-hand sides.
+        The left-hand sides are compared only at this random member. If the result is True, the probability
+        of an error is negligible.
         """
         if combination is None:
             return False
@@ -128,10 +127,10 @@ def exact_member(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Evaluate the left-hand sides of ``conditions`` at a random member of a sub-family. ``symbolic``
-    describes the sub-family.
+    """Evaluate the left-hand sides of ``conditions`` at a random member of a sub-family.
 
-    Return None if the numbers become too large or if a divisor is zero.
+    ``symbolic`` describes the sub-family, and ``draws`` generates the random numbers. ``surd`` is the result
+    of :func:`lone_square_root`. Return None if the numbers become too large or if a divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -165,7 +164,7 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 class _Scalars:
     """The field Q(sqrt(d)), in which the formulas of a tableau file are evaluated. Random numbers replace
-    the rounded decimals and the named roots."""
+    the rounded decimals and the roots of polynomials."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

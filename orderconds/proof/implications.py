@@ -16,7 +16,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Return True if ``facts`` about a tableau imply that its order in ``family`` is at least ``order``.
+    """Return True if ``facts`` about a method imply that the method has order ``order`` in ``family``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
@@ -39,7 +39,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return lower bounds of orders that follow from ``facts``, as a map from labels of families to orders.
+    """Return a map from labels of families to lower bounds of the order that follow from ``facts``.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -57,9 +57,9 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. Suppose that
-    order n in ``family`` implies order n in a second family. Then the exact order in the second family is an
-    upper bound. The order in ``family`` is determined if a lower bound is equal to an upper bound.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
+    ``family`` always implies order n in a second family, the exact order in the second family is an upper
+    bound of the order in ``family``. The order is determined if a lower bound is equal to an upper bound.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

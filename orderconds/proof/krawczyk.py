@@ -1,14 +1,15 @@
 """Krawczyk's operator, which proves in ball arithmetic that a square system has exactly one solution in a
 box.
 
-For F: R^n -> R^n, a box X with midpoint x and any matrix Y, Krawczyk's operator K is
+Let F: R^n -> R^n, let X be a box with midpoint x, and let Y be a matrix. In this module, Y is an approximate
+inverse of the Jacobian matrix at x. Krawczyk's operator K is
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
 Here I is the identity matrix, and F'(X) encloses the Jacobian matrices of F at all points of X. If K(X) lies
 in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and the Jacobian matrix of F
 is regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem
-5.1.8). Repeated application of K encloses the zero to the working precision, with quadratic convergence.
+5.1.8). Repeated application of K shrinks the box to the working precision. The convergence is quadratic.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ class NotProved(Exception):
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
     """Return balls that enclose the only zero of ``system`` in ``box``. An iteration with a precision of
-    ``bits`` bits reduces the radii of the balls. The iteration ends when no radius decreases by more than
-    half, or after :data:`MAX_SWEEPS` steps.
+    ``bits`` bits reduces the radii of the balls. The iteration ends when a step halves none of the radii, or
+    after :data:`MAX_SWEEPS` steps.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 
@@ -49,8 +50,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"Krawczyk's operator does not map the box into itself: for unknown {i + 1}, the box "
-                    f"has the interval {outer.str(12)}, but its image has {inner.str(12)}"
+                    f"Krawczyk's operator does not map the box into itself: the interval of unknown "
+                    f"{i + 1} is {outer.str(12)} in the box and {inner.str(12)} in the image"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]

@@ -1,8 +1,8 @@
 """Newton's method in high precision, starting from the digits in a tableau file.
 
-If there are more decimals than equations, Newton's method changes only some of the decimals. These decimals
-are selected by Gaussian elimination of the Jacobian with complete pivoting. The remaining decimals are
-pinned: their digits do not change.
+If there are more decimals than equations, Newton's method changes only some of the decimals. Gaussian
+elimination with complete pivoting, applied to the Jacobian matrix, selects the decimals that change. The
+digits of the remaining decimals, the pins, do not change.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest accepted change of a decimal. A larger change is rejected, because the result would be a
+"""A bound on the change of a decimal in Newton's method. After a larger change, the result would be a
 different method."""
 
 
@@ -48,9 +48,9 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
     is the text of the file.
 
-    The result contains the text of a new file. In the new file, the list ``pins`` contains the names of the
-    decimals that did not change. These decimals are taken as exact numbers. The table ``[proof.printed]``
-    contains the original digits.
+    The result contains the text of a new file. If there are more decimals than equations, some decimals do
+    not change. The list ``pins`` of the new file contains the names of these decimals. The table
+    ``[proof.printed]`` contains the original digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
@@ -70,7 +70,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # Equations that are identities are omitted. The test evaluates the equations on a box.
+        # Equations that hold for all coefficients are omitted. To find them, ``independent`` needs the
+        # values of the equations on a box.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -90,8 +91,8 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     Each row of ``jacobian`` contains the derivatives of one equation. The function divides each row by its
     largest entry. Gaussian elimination with complete pivoting selects the unknowns.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the
-    equations may be dependent.
+    If a pivot is smaller than 1e-8, the equations can be dependent. In this case, the function raises
+    :class:`~orderconds.proof.krawczyk.NotProved`.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -138,7 +139,7 @@ def _newton(
 
 
 def decimal_places(x: arb, digits: int) -> str:
-    """Return a positive number as a decimal with ``digits`` digits after the point.
+    """Return a positive number in decimal notation, with ``digits`` digits after the decimal point.
 
     >>> decimal_places(arb(2.5), 3)
     '2.500'
@@ -206,10 +207,9 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number ``name`` as text. The decimals in the tableau file are taken as exact
-    numbers."""
+    """Return the value of the number ``name``, computed from the decimals in the tableau file, as text."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    # The type RootedRing has a method for roots, but the ring QQ has none. A decimal contains no root.
+    # QQ cannot compute roots, but no root is needed here.
     value = at.number(name, cast("RootedRing", QQ), {})
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 

@@ -2,9 +2,9 @@
 ``reduction = "spelling"``, these conditions are the equations for the coefficients.
 
 Formulas in the file, such as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family. In the sub-family,
-fewer conditions are independent. A condition is omitted if it follows from retained conditions. In this
-case, its left-hand side is a polynomial in the left-hand sides of the retained conditions. Its right-hand
-side is the same polynomial in the right-hand sides.
+fewer conditions are independent. A condition is omitted if it follows from retained conditions. The
+left-hand side of an omitted condition is a polynomial in the left-hand sides of retained conditions. The
+right-hand side is the same polynomial in the right-hand sides.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). This computation is not a
 proof. Therefore each polynomial is verified exactly at one random method of the sub-family
