@@ -41,12 +41,14 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    A vertex in a subtree of the form ``L(w)`` cannot be the root. The other vertices of the tree can be the
-    root, and we call them possible roots. In a tree with k possible roots, k - 1 edges connect them. Let R be
-    the number of rooted trees, and let E be the number of these edges in all classes. Then the number of
-    classes is R - E. Without one such edge, the tree becomes two parts: a force
-    (:class:`~orderconds.series.action_trees.Force`) and a g-valued tree. Therefore E is the number of pairs
-    (force, g-valued tree) with ``vertices`` vertices in total.
+    Vertices in a subtree of the form ``L(w)`` cannot be the root. The other vertices are possible roots. Take
+    one tree of each class. Let R be the number of possible roots in these trees, and let E be the number of
+    edges between possible roots. Equivalent roots count once, and equivalent edges count once. The number of
+    classes is R - E, because each class has one more root than edges.
+
+    Each possible root gives one g-valued tree. Therefore R is the number of g-valued trees. Each edge divides
+    the tree into a force (:class:`~orderconds.series.action_trees.Force`) and a g-valued tree. Therefore E is
+    the number of pairs (force, g-valued tree) with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -89,7 +91,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 def _lie_counts(t: list[int], order: int) -> list[int]:
     """Return the dimensions of the subspaces of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
     formula. The algebra has ``t[n]`` letters of weight n."""
-    # Let T be sum_n t[n] x^n. Entry n of ``power`` is n times the coefficient of x^n in log(1/(1 - T)).
+    # Witt's formula needs the coefficients of log(1/(1 - T)), where T = sum_n t[n] x^n. Entry n of ``power``
+    # is n times the coefficient of x^n.
     power = [0] * (order + 1)
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

@@ -5,8 +5,8 @@ Each vertex of a tree represents a derivative of the Hamiltonian H.
 
 The cost of a tree measures how difficult its order condition is to read. The cost of a subtree is at most the
 cost of the whole tree. The trees are enumerated in several passes with increasing limits on the cost. Later
-passes are rarely necessary: there are 6331 g-valued trees with six vertices, but for most methods the
-conditions of a few hundred of them determine the order.
+passes are rarely necessary. For example, there are 6331 g-valued trees with six vertices. For most methods,
+the conditions of a few hundred of these trees imply the other conditions.
 """
 
 from __future__ import annotations
@@ -58,8 +58,7 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return all words of g-valued trees with ``vertices`` vertices in total. Words of low cost come
-    first.
+    """Return all words of g-valued trees with ``vertices`` vertices in total, simplest words first.
 
     >>> words(2)
     ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
@@ -158,13 +157,12 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset) for multisets of g*-valued trees. The trees of a multiset have
-    ``vertices`` vertices in total. The cost of a multiset is the sum of the costs of its trees, and it is at
-    most ``rest``.
+    """Yield pairs (cost, multiset) for multisets of g*-valued trees with ``vertices`` vertices in total. The
+    cost of a multiset is the sum of the costs of its trees, and it is at most ``rest``.
 
-    The arguments ``largest`` and ``bound`` ensure that each multiset is generated once. Each tree has at most
-    ``largest`` vertices. If a tree has exactly ``largest`` vertices, its index in the result of
-    :func:`_momenta` is at most ``bound``.
+    The trees are entries of the lists ``_momenta(n, limit)`` with n <= ``largest``. In the list for n =
+    ``largest``, only the entries with an index up to ``bound`` are used. With these two restrictions, the
+    recursion yields each multiset once. If ``bound`` is None, all entries are used.
     """
     if vertices == 0:
         yield 0, ()

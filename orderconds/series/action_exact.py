@@ -33,7 +33,7 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the coefficient of a g-valued tree in the exact flow, as a polynomial in the time s.
+    """Return the coefficient tau_t(s) of a g-valued tree t in the velocity of the exact flow at time s.
     The output of the example shows s as x.
 
     >>> from orderconds.series.action_enumeration import velocities
@@ -45,7 +45,7 @@ def tau(tree: Velocity) -> UnivariatePolynomial:
 
 @cache
 def phi(word: Word) -> UnivariatePolynomial:
-    """Return the coefficient of a word in the group element of the exact flow, as a polynomial in the time s.
+    """Return the coefficient Phi_w(s) of a word w in the group element of the exact flow at time s.
     The output of the example shows s as x.
 
     >>> from orderconds.series.action_trees import velocity
@@ -57,7 +57,7 @@ def phi(word: Word) -> UnivariatePolynomial:
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the coefficient of a g*-valued tree in the exact flow, as a polynomial in the time s.
+    """Return the coefficient psi_p(s) of a g*-valued tree p in the momentum of the exact flow at time s.
     The output of the example shows s as x.
 
     >>> from orderconds.series.action_trees import force, velocity
@@ -95,8 +95,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the coefficient of a tree in the exact flow at time 1. This number is the right-hand side of the
-    order condition of the tree.
+    """Return the right-hand side of the order condition of a tree t. It is the integral of tau_t(s) over
+    0 <= s <= 1.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]
@@ -106,7 +106,7 @@ def condition(tree: Velocity) -> Fraction:
 
 
 def update(word: Word) -> Fraction:
-    """Return the exact coefficient of a word in the group element of the flow at time 1.
+    """Return the coefficient of a word in the group element of the exact flow at time 1.
 
     >>> from orderconds.series.action_trees import velocity
     >>> print(update((velocity(), velocity(), velocity())))
@@ -116,8 +116,8 @@ def update(word: Word) -> Fraction:
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return a map from words of trees to their coefficients in the exact flow (:func:`update`). The map
-    contains all words with at most ``vertices`` vertices.
+    """Return a map from words of trees to the results of :func:`update`. The map contains all words with at
+    most ``vertices`` vertices.
 
     >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
     [('', '1'), ('o', '1')]

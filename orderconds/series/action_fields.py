@@ -173,13 +173,13 @@ class ActionFields:
         return tuple(values)
 
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
-        """Return the leading terms of the local errors of position and momentum, for a method of order p.
+        """Return the coefficients of h^(p+1) in the local errors of position and momentum, for a method of
+        order p. Here h is the step size.
 
-        The result contains the coefficients of h^(p+1) in the errors after one step of size h. The first
-        value is a matrix for the position, and the second value contains the coordinates for the momentum.
-        ``defects`` maps each word with p + 1 vertices to a difference: the coefficient of the word in the
-        update minus its coefficient in the exact flow. The differences of words with at most p vertices must
-        be zero.
+        The first value is a matrix for the position. The second value contains the coordinates of a covector
+        for the momentum. ``defects`` maps each word with p + 1 vertices to a difference: the coefficient of
+        the word in the update minus its coefficient in the exact flow. The differences of words with at most
+        p vertices must be zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -196,9 +196,9 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # The series expresses the initial momentum by the final momentum. Hence ``weight * change`` is a
-            # term of the error of the initial momentum. The error of the final momentum has the opposite
-            # sign.
+            # The action series expresses the initial momentum by the final momentum. Hence
+            # ``weight * change`` is a term of the error of the initial momentum. In the error of the final
+            # momentum, this term has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

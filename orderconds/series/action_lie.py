@@ -5,9 +5,9 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-The method also needs the coefficients of words u x v. Here u and v are words, and x is one special letter.
-This letter represents a variation of the velocity of one stage j: the sum xi_j + x replaces xi_j. For a word
-u x v, the functions of this module have the arguments ``before`` = u and ``after`` = v.
+The coefficients of g*-valued trees (:mod:`orderconds.series.action`) depend on the coefficients of words
+u x v. Here u and v are words, and the letter x is a variation of the velocity of one stage j: the sum
+xi_j + x replaces xi_j. The arguments ``before`` and ``after`` of the functions are the words u and v.
 """
 
 from __future__ import annotations
@@ -28,13 +28,14 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from stages to coefficients of a word u x v. The coefficient of stage j belongs to the variation x of
-the velocity xi_j. Zero coefficients may be omitted."""
+"""A map from the index j of a stage to the coefficient of a word u x v. Here the letter x is a variation of
+the velocity xi_j. The map need not contain zero coefficients."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
     """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b). The
-    series dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
+    series dexpinv_X is truncated after the r-th power of X, where r is ``cutoff``. If ``cutoff`` is None, the
+    series is not truncated.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -48,7 +49,7 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # ``_rows`` contains the rows of A for the stages, and the row b for the update.
+        # ``_rows[0]`` contains the rows of A, and ``_rows[1]`` contains the row b.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
@@ -61,18 +62,18 @@ class MuntheKaasActionSeries(ActionSeries):
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
-        stages, return the coefficient in the exponential of the update."""
+        """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
+        stages, return the coefficient in the group element of the update."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficients of a word in the exponentials of all stages."""
+        """Return the coefficient of a word in the group element of each stage."""
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
-        stages, return the coefficient in the exponential of the update.
+        """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
+        stages, return the coefficient in the group element of the update.
 
         The word consists of the word ``before``, the letter x, and the word ``after``. The letter x is a
         variation of the velocity of the stage with index ``stage``.
@@ -96,9 +97,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word u x v in exponentials. If ``update`` is 0, the
-        list has one entry for the exponential of each stage. If ``update`` is 1, the only entry belongs to
-        the exponential of the update. The module docstring defines u, x and v."""
+        """Return the coefficients (:data:`Varied`) of the word u x v of the module docstring. If ``update``
+        is 0, the list has one entry for the group element of each stage. If ``update`` is 1, the list has one
+        entry for the group element of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -111,9 +112,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of ``word`` in n-th powers of exponents. If ``update`` is 0, the list has
-        one entry for the power X_i^n of each stage i. If ``update`` is 1, the only entry belongs to Y^n. The
-        module docstring defines X_i and Y."""
+        """Return the coefficients of ``word`` in the n-th powers of the exponents of the module docstring. If
+        ``update`` is 0, the list has one entry for each power X_i^n. If ``update`` is 1, the list has one
+        entry for the power Y^n."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -127,9 +128,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients (:data:`Varied`) of the word u x v in n-th powers of exponents. If
-        ``update`` is 0, the list has one entry for the power X_i^n of each stage i. If ``update`` is 1, the
-        only entry belongs to Y^n. The module docstring defines u, x, v, X_i and Y."""
+        """Return the coefficients (:data:`Varied`) of the word u x v in the n-th powers of the exponents. If
+        ``update`` is 0, the list has one entry for each power X_i^n. If ``update`` is 1, the list has one
+        entry for the power Y^n. The module docstring defines u, x, v, X_i and Y."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -145,11 +146,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the coefficients of the word u x v in X^n to ``totals``, for each exponent X and n > 1. The
-        power X^n is computed as the product of X and X^(n-1)."""
+        """Add the result of :meth:`_varied_power` for n > 1 to ``totals``. The n-th power of an exponent X is
+        computed as the product of X and X^(n-1)."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The word u x v is divided after ``cut`` letters. If ``rest`` is negative, x is in the second
-            # part. Otherwise, the first part ends with x and ``rest`` letters of ``after``.
+            # The word (before, x, after) is divided after ``cut`` letters. If ``rest`` is negative, the
+            # second part contains x. If not, the first part ends with x and ``rest`` letters of ``after``.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -246,11 +247,11 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to words of a certain form. In these
-        words, ``before`` letters precede the letter xi, and ``behind`` letters follow xi.
+        """Return the triples (q, m, n) of the terms q X^n xi X^m of dexpinv_X xi that contribute to certain
+        words. In these words, ``before`` letters precede the letter xi, and ``behind`` letters follow xi.
 
-        The letters of a word act one after another. In a term, X^m acts before xi, and X^n acts after xi.
-        Hence the letters before xi come from X^m, and the letters behind xi come from X^n.
+        The first letter of a word acts first. In a term, X^m acts before xi, and X^n acts after xi. Hence the
+        letters before xi come from X^m, and the letters behind xi come from X^n.
         """
         known = self._in_sight.get((before, behind))
         if known is None:

@@ -3,8 +3,8 @@ prime, for many random methods and for the exact flow. The rank of the matrix of
 conditions are independent.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
-conditions up to order n. The polynomial must be the same for every method **and for the exact flow**. If the
-exact flow were omitted, a condition could seem to be dependent although no method satisfies it.
+conditions up to order n. The polynomial must be the same for every method **and for the exact flow**. Then
+every method that satisfies the other conditions also satisfies the dependent condition.
 
 The trees are considered one after another, simplest first. A tree is selected if its condition does not
 depend on the conditions of the earlier trees.
@@ -32,8 +32,8 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 value of the series is a vector with one residue for each method. A random method is also called a sample."""
 
 SPARE_SAMPLES = 24
-"""The number of samples minus the largest possible rank. With fewer samples, independent conditions would be
-more likely to seem dependent."""
+"""The number of samples minus the largest possible rank (:func:`_largest_rank`). With fewer samples,
+independent conditions would be more likely to seem dependent."""
 
 BLOCK = 256
 """The number of samples that are evaluated together. A larger number would require more memory."""
@@ -73,9 +73,8 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the coefficient
-    of the tree in the exact flow. The other entries are the left-hand sides of the condition of the tree, one
-    for each random method.
+    """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the right-hand
+    side of the condition of the tree. The other entries are the left-hand sides, one for each random method.
 
     Calls that differ only in the list of trees use the same random methods.
 
@@ -103,7 +102,8 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank of the conditions of order ``order``.
+    """Return an upper bound for the number of independent monomials of order ``order``. A monomial is a
+    product of conditions whose trees have ``order`` vertices in total.
 
     The result is the number of products of independent elementary Hamiltonians with ``order`` vertices in
     total. The function :func:`~orderconds.series.action_counts.tree_counts` counts these Hamiltonians.

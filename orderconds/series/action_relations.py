@@ -2,7 +2,7 @@
 
 The polynomial is the same for every method of the family and for the exact flow. The values of the conditions
 for random methods and for the exact flow give linear equations for the coefficients of the polynomial. The
-equations are solved modulo two primes, and the rational coefficients are reconstructed from the residues.
+equations are solved modulo two primes. The two solutions determine the rational coefficients.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of the tree p at a stage
@@ -37,11 +37,11 @@ left-hand sides of the conditions of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return a map from the dependent trees with n vertices to polynomials. The polynomial of a tree
-    expresses the condition of the tree by the conditions of independent trees.
+    """Return a map from the trees with n vertices that are not in ``independent`` to polynomials. The
+    polynomial of a tree expresses the condition of the tree by the conditions of trees in ``independent``.
 
     ``independent`` is the result of :func:`orderconds.series.action_rank.independent_trees` for the orders 1,
-    ..., n. With a probability of about 10^-8, the polynomials are wrong. The function
+    ..., n. The polynomials are wrong with a probability of about 10^-8. The function
     :func:`hold_over_rationals` verifies the polynomials over Q.
 
     >>> from functools import partial

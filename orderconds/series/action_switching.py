@@ -65,8 +65,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return a list and an iterator over the classes of trees with ``vertices`` vertices. The list is empty
-    at first. The function :func:`classes_in_turn` moves classes from the iterator to the list."""
+    """Return the list of the classes that are known, and an iterator over the remaining classes. The function
+    :func:`classes_in_turn` moves classes from the iterator to the cached list."""
     return [], _classes(vertices)
 
 

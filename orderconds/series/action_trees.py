@@ -29,7 +29,7 @@ class _Node:
     """The base class of the three kinds of trees. A tree stores its number of vertices, its cost and its
     canonical text.
 
-    If a tree has a higher cost, its order condition is harder to read.
+    The cost of a tree measures how difficult the order condition of the tree is to read.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -88,8 +88,8 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # As a letter of a larger tree, this tree adds ``nesting`` to the cost of the larger tree. The cost of
-        # this tree counts twice, because a deep tree is harder to read than a wide tree.
+        # If this tree is a letter of a larger tree, it adds ``nesting`` to the cost of the larger tree. The
+        # factor 2 gives deep trees a higher cost than wide trees, because they are harder to read.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -150,7 +150,7 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree."""
+        """The order of the symmetry group: the product of the values ``symmetry`` of the letters."""
         return _symmetry(self.word, ())
 
 
@@ -164,10 +164,10 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the additional cost of a word with different letters.
+    """Return the part of the cost of a word that is zero if all letters are equal.
 
-    If all letters are equal, the result is zero, because the coefficient of the word has the simple form
-    c^k/k!. Here k is the number of letters, and c is the coefficient of the word with one letter.
+    The coefficient of a word with k equal letters has the simple form c^k/k!. Here c is the coefficient of
+    the word with one letter. Words with different letters have a higher cost.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -176,8 +176,7 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of a :class:`Force` with the words ``before`` and ``after``. The costs of the trees in
-    its multiset are not included. The class :class:`_Node` defines the cost.
+    """Return the cost of a :class:`Force` with the words ``before`` and ``after`` and an empty multiset.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -187,8 +186,7 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of a :class:`Transport` with the word ``word``. The class :class:`_Node` defines the
-    cost.
+    """Return the cost of a :class:`Transport` with the word ``word``.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -271,8 +269,8 @@ def hamiltonian(tree: Velocity) -> str:
 
     The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
     follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
-    q is an element of g, which defines a right-invariant field. A direction in mu is a covector. A dot
-    represents the argument of this covector.
+    q is an element of g, which defines a right-invariant field. A direction in mu is a covector. In the text
+    of a covector, a dot represents the argument.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -35,7 +35,7 @@ class StageAlgebra(Protocol):
         """Return A x, where A is the matrix with index ``kind``."""
 
     def weigh(self, x: Element) -> Element:
-        """Return b^T x for the weights b."""
+        """Return the sum of b_i x_i over all stages i, where b_i are the weights of the method."""
 
 
 class ElementaryWeights(Generic[TreeT]):
@@ -115,7 +115,7 @@ class StageVectors:
         return tuple(self._matrices[kind](x))
 
     def weigh(self, x: Sequence[Element]) -> Element:
-        """Return b^T x for the weights b."""
+        """Return the sum of b_i x_i over all stages i, where b_i are the weights of the method."""
         weight: Element = self._b(x)[0]
         return weight
 

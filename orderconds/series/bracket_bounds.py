@@ -1,6 +1,6 @@
-"""A lower bound for the number of brackets (commutators), computed by linear algebra. The bound holds for
-every program that computes the arguments u_1, ..., u_s of the exponentials of the stages and the argument u
-of the exponential of the step (:class:`orderconds.series.brackets.BracketProgram`).
+"""A lower bound for the number of brackets (commutators), computed by linear algebra. A program
+(:class:`orderconds.series.brackets.BracketProgram`) computes the arguments u_1, ..., u_s of the exponentials
+of the stages and the argument u of the exponential of the step. The bound holds for every program.
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
 the letters q_1, ..., q_(i-1), because it is computed before k_i. Choose a number m < i. The letters q_m, ...,
@@ -23,7 +23,7 @@ element. Then N is greater than d, for the following reason. Consider the first 
 program computes, and let x be the linear part of this bracket. The two factors of this bracket contain no
 brackets with new letters. Therefore all polynomials P_n of x are Lie elements. By the assumption, x is zero
 or not in S. If x is zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is
-not in S, the N linear parts span a space that is larger than S.
+not in S, the N linear parts span a space that is larger than S. In both cases, N is greater than d.
 
 The number of brackets without new letters has a lower bound of the same kind. The sum of this bound and the
 bound for N is a lower bound for the number of all brackets.
@@ -38,11 +38,11 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return a map from n >= ``first`` to the polynomial P_n. The module docstring defines ad_(P_n).
+    """Return a map from n to the polynomial P_n in the linear part ``sum_n ad_(P_n) q_n`` of x. The module
+    docstring defines the linear part.
 
-    The polynomial x must be a sum of letters and brackets, and q_n is the letter with index n. The letters
-    with n >= ``first`` are the new letters. Take the terms of x that have at least two letters and exactly
-    one new letter. The sum of these terms is ``sum_n ad_(P_n) q_n``.
+    The polynomial x must be a sum of letters and brackets. The letter q_n has index n. The letters with
+    n >= ``first`` are the new letters.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -77,12 +77,12 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in every program that computes ``arguments``. The list
-    contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the
+    """Return a lower bound for the number of brackets in every program that computes ``arguments``. This
+    list contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the
     exponential of the step.
 
-    In u_1, ..., u_s, terms of the largest grade do not affect the order of the method, and the function
-    ignores these terms. In u, the function includes the terms of the largest grade.
+    The function ignores the terms of the largest grade of ``algebra`` in u_1, ..., u_s, because these terms
+    do not affect the order of the method. The terms of the largest grade in u are included.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -92,7 +92,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # In the argument of the step, terms of the largest grade affect the order, too.
+        # The last span includes the terms of the largest grade in u, because they affect the order.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

@@ -1,9 +1,9 @@
 """Simplification of a :class:`orderconds.series.brackets.BracketProgram`. The simplified program has the same
-number of brackets, but its rows have fewer terms.
+number of brackets, but its linear combinations have fewer terms.
 
 Let B = [x, y] and C = [x, z] be two brackets with the same left factor x, and let t be a number. Then
 D = C + t B = [x, z + t y] is a single bracket. The program can compute D in place of C, because C = D - t B.
-The number t is chosen so that terms vanish.
+The number t is chosen to cancel a term of a linear combination.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
     """Return a program that computes the same arguments, if possible with fewer terms.
 
     In each step, the function adds a multiple of one bracket to a later bracket with the same left factor.
-    The function stops when no step reduces the number of terms. The ring must have division and decide
-    whether an element is zero. In the example, -2 B1 is added to B2, so that B2 no longer contains k2.
+    The function stops when no step reduces the number of terms. The ring must have division and a test for
+    zero. In the example, the function adds -2 B1 to B2. The new B2 does not contain k2.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -50,8 +50,8 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield modified programs. Each modification adds a multiple of one bracket to a later bracket with the
-    same left factor. At least one term in a row of the program vanishes."""
+    """Yield programs in which a multiple of one bracket is added to a later bracket with the same left
+    factor. The multiple is chosen to cancel a term."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)
@@ -69,7 +69,7 @@ def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
     """Return the program that computes the bracket B_r + t B_q in place of the bracket B_r. ``names``
-    contains the name of B_q and the name of B_r."""
+    contains the names of B_q and B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:
