@@ -1,7 +1,7 @@
-"""The working precision of flint, a global variable of the process.
+"""Control of flint's working precision, which is a global variable of the process.
 
-The project changes the precision only in blocks ``with precision(bits)``. At the end of a block, the previous
-precision is restored.
+The project changes the working precision only in blocks ``with precision(bits)``. At the end of a block, the
+previous precision is restored.
 """
 
 from __future__ import annotations

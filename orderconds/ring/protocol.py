@@ -1,5 +1,5 @@
-"""The interface of scalar rings. An algorithm that uses only this interface accepts exact, certified,
-symbolic and numeric scalars.
+"""The interface of scalar rings. An algorithm that uses only this interface accepts exact, symbolic and
+floating-point scalars, and balls (numbers with error bounds).
 
 Elements define the operators ``+ - *`` and unary ``-``. Elements of a field also define ``/``. In an
 operation with two operands, one operand may be a Python ``int``. All other operations are methods of the
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     import numpy as np
 
 Element = Any
-"""An element of a ring, or a Python ``int``. Elements of some rings are flint, mpmath or NumPy objects."""
+"""An element of a ring, or a Python ``int``. Some rings use flint, mpmath or NumPy objects as elements."""
 
 Key = tuple[Any, ...]
-"""A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""
+"""A hashable sort key of an element. The keys of elements of the same ring can be compared."""
 
 
 class Ring(Protocol):
@@ -35,7 +35,7 @@ class Ring(Protocol):
         the result is None for a ball that contains zero and other numbers."""
 
     def text(self, x: Element) -> str:
-        """Return x as text. If possible, the text follows the grammar of tableau files."""
+        """Return x as text. If the grammar of tableau files can express x, the text follows this grammar."""
 
     def key(self, x: Element) -> Key:
         """Return a hashable sort key. Equal elements of this ring have equal keys."""

@@ -1,5 +1,4 @@
-"""Linear dependences between the columns of a matrix modulo a prime. They are read from the reduced echelon
-form of the matrix."""
+"""Linear dependences between the columns of a matrix modulo a prime."""
 
 from __future__ import annotations
 
@@ -12,12 +11,12 @@ from orderconds.ring.residues import Residue
 
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
-    """Return the indices of the pivot columns. A pivot column is not a linear combination of earlier columns.
-    The number of pivot columns is the rank.
+    """Return the indices of the pivot columns of a matrix. A pivot column is not a linear combination of the
+    columns to its left. The number of pivot columns is the rank of the matrix.
 
-    Each column contains the values of one function at random samples, one sample in each row. If columns
-    are linearly independent, their functions are linearly independent, too. With a probability of about
-    (number of columns) / prime, the rank is too small.
+    Each column contains the values of one function at random points, one point for each row. The rank of the
+    matrix is at most the number of linearly independent functions. The rank is smaller than this number with
+    a probability of about (number of columns) / prime.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)
@@ -29,10 +28,10 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
 
 
 def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
-    """Return the linear dependences of the columns on the pivot columns.
+    """Return the columns that are not pivot columns as linear combinations of the pivot columns.
 
-    A pivot column is not a linear combination of the columns to its left. The result contains every column
-    that is not a pivot column, in the form {column: {pivot column: coefficient}}. All coefficients are
+    A pivot column is not a linear combination of the columns to its left. The result has the form {column:
+    {pivot column: coefficient}}, where columns are denoted by their indices. The coefficients are non-zero
     residues modulo the prime.
 
     >>> from orderconds.ring import Residues

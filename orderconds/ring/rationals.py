@@ -40,8 +40,8 @@ class Rationals:
         return int(x.p), int(x.q)
 
     def approximate(self, x: fmpq, digits: int = 20) -> str:
-        """Return x as a decimal, correctly rounded to ``digits`` significant digits. An exact decimal has no
-        trailing zeros."""
+        """Return x as a decimal, correctly rounded to ``digits`` significant digits. If the decimal is equal
+        to x, trailing zeros are removed."""
         return rational_decimal(x, digits)
 
     def nearest_float(self, x: fmpq) -> float:

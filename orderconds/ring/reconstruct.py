@@ -10,8 +10,9 @@ from math import isqrt, prod
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
     """Return the fraction p/q with the given residues modulo the primes, one residue for each prime.
 
-    Let M be the product of the primes. At most one fraction with |p| <= sqrt(M/2) and 0 < q <= sqrt(M/2) has
-    the given residues. Raises ArithmeticError if no fraction within these bounds has the residues.
+    Let M be the product of the primes. The bounds are |p| <= sqrt(M/2) and 0 < q <= sqrt(M/2). At most one
+    fraction within the bounds has the given residues. If there is no such fraction, ArithmeticError is
+    raised.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
     Section 5.10).
@@ -28,5 +29,7 @@ def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
         quotient = r[0] // r[1]
         r, t = (r[1], r[0] - quotient * r[1]), (t[1], t[0] - quotient * t[1])
     if not 0 < abs(t[1]) <= bound:
-        raise ArithmeticError(f"no small fraction has residues {list(residues)} modulo {list(primes)}")
+        raise ArithmeticError(
+            f"no fraction within the bounds has residues {list(residues)} modulo {list(primes)}"
+        )
     return Fraction(r[1], t[1])

@@ -2,7 +2,7 @@
 
 A vector contains the values of one quantity in many random tableaux. The quantity is, for example, a
 coefficient of the tableau or the left-hand side of an order condition. The value in one tableau is a sample.
-The prime is below 2^31, so that products fit in 64 bits.
+The product of two residues must fit in 64 bits. Therefore the prime must be below 2^31.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Residues:
 
     def __init__(self, prime: int = PRIMES[0], samples: int = 1) -> None:
         if not 2 < prime < 2**31:
-            raise ValueError(f"prime {prime} must lie between 3 and 2^31")
+            raise ValueError(f"the prime {prime} must be at least 3 and less than 2^31")
         self.prime, self.samples = prime, samples
         self.name = f"residues({prime})"
         self.zero = self.rational(0)
@@ -46,7 +46,7 @@ class Residues:
         """Return the vector with p/q in every entry. Raises ZeroDivisionError if the prime divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
-            raise ZeroDivisionError(f"the denominator is divisible by the prime {self.prime}")
+            raise ZeroDivisionError(f"the denominator of a fraction is divisible by the prime {self.prime}")
         value = p * pow(q, -1, self.prime) % self.prime
         return Residue(self, np.full(self.samples, value, dtype=np.int64))
 
@@ -55,7 +55,7 @@ class Residues:
         return Residue(self, np.asarray(values, dtype=np.int64) % self.prime)
 
     def random(self, generator: np.random.Generator) -> Residue:
-        """Return independent uniform residues."""
+        """Return a vector of independent, uniformly distributed residues."""
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
@@ -63,15 +63,15 @@ class Residues:
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
-        """Return the vector of residues as text."""
+        """Return the vector x as text."""
         return str(x.values)
 
     def key(self, x: Residue) -> tuple[int, ...]:
-        """Return the residues as a sequence of integers."""
+        """Return the residues as a tuple of integers, a hashable sort key."""
         return tuple(int(v) for v in x.values)
 
     def approximate(self, x: Residue, digits: int = 20) -> str:
-        """Return the residues as text, because a residue has no decimal approximation."""
+        """Return ``text(x)``, because a residue has no decimal approximation. ``digits`` is not used."""
         return self.text(x)
 
 
@@ -117,7 +117,7 @@ class Residue:
         """Return 1/x for this vector x, by Fermat's formula 1/x = x^(p-2) for the prime p. Raises
         ZeroDivisionError if an entry of x is zero."""
         if not self.values.all():
-            raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
+            raise ZeroDivisionError(f"a sample of the divisor is zero modulo {self.ring.prime}")
         result, square, n = self.ring.one, self, self.ring.prime - 2
         while n:
             if n & 1:

@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A root is given by a polynomial and a decimal near the root. Balls
-around the root can be computed to any precision."""
+"""Real roots of polynomials with rational coefficients. A root is given by a polynomial and an interval that
+contains no other real root of the polynomial. Balls around the root can be computed to any precision."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
     factor. The argument of the function is a precision in bits, and the result is a ball around the root.
 
     The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The ``coefficients`` of the polynomial are in ascending order.
+    interval does not contain exactly one root. The ``coefficients`` of the polynomial are listed by
+    ascending powers.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -29,11 +30,12 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
-    """Return a monic irreducible factor of ``minpoly``, and the index of a real root of the factor.
+    """Return a monic irreducible factor of the polynomial ``minpoly``, and the index of a real root of the
+    factor. Both polynomials are lists of coefficients, by ascending powers.
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
     interval does not contain exactly one root. The real roots of the factor are numbered from 0, in
-    ascending order. The coefficients of a polynomial are listed by ascending powers.
+    ascending order.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -103,8 +105,7 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
     """Return balls around the real roots of a polynomial, in ascending order. The index of a root in the
-    result does not depend on the precision ``bits``. The leading coefficient of the polynomial may differ
-    from 1, although the argument has the name ``monic``.
+    result does not depend on the precision ``bits``. The polynomial need not be monic.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

@@ -1,8 +1,9 @@
 """Vectors of residues modulo a prime, without NumPy, because the import of NumPy is slow.
 
-Let p be the prime. The residues in a vector are called samples. A polynomial of degree below n over Z/p
-represents a vector of n samples: sample k is its value at the point k. The map from the samples to the
-coefficients of the polynomial is linear and invertible. Therefore it preserves linear independence.
+Let p be the prime. The residues in a vector are called samples. A polynomial over Z/p of degree below n
+represents a vector of n samples: sample k is the value of the polynomial at the point k. The map from vectors
+to polynomials is linear and invertible. Therefore linear dependences between vectors can be computed from the
+coefficients of the polynomials.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of vectors of ``count`` residues (samples) modulo ``prime``. The samples are values of a
-    polynomial at the points 0, ..., ``count`` - 1. These points are distinct modulo the prime, because the
-    prime must be larger than ``count``.
+    """The ring of vectors of ``count`` residues (samples) modulo ``prime``, with componentwise arithmetic.
+    The samples are the values of a polynomial at the points 0, ..., ``count`` - 1. The prime must be larger
+    than ``count``, because the points must be distinct modulo the prime.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])
@@ -42,7 +43,7 @@ class Samples:
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the element with the given values, one for each sample."""
+        """Return the vector with the samples ``values``."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)
@@ -64,8 +65,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. The map
-        from x to the coefficients preserves linear independence."""
+        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. Vectors
+        of samples and their coefficient lists have the same linear dependences."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -74,11 +75,11 @@ class Samples:
         return str([int(x.polynomial(k)) for k in range(self.count)])
 
     def key(self, x: Sample) -> tuple[int, ...]:
-        """Return the coefficients of the polynomial that represents x."""
+        """Return a hashable sort key: the coefficients of the polynomial that represents x."""
         return tuple(self.coordinates(x))
 
     def approximate(self, x: Sample, digits: int = 20) -> str:
-        """Return the samples as text, because a residue has no decimal approximation."""
+        """Return ``text(x)``, because a residue has no decimal approximation. ``digits`` is not used."""
         return self.text(x)
 
 
@@ -119,7 +120,7 @@ class Sample:
         """Return 1/x for this vector x. Raises ZeroDivisionError if a sample of x is zero."""
         common, inverse, _ = self.polynomial.xgcd(self.ring.modulus)
         if common.degree() != 0:
-            raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
+            raise ZeroDivisionError(f"a sample of the divisor is zero modulo {self.ring.prime}")
         return Sample(self.ring, inverse)
 
     def __truediv__(self, other: Element) -> Sample:
@@ -146,11 +147,12 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the pivot columns of a matrix modulo ``prime``, and the linear dependences of the columns.
+    """Return the indices of the pivot columns of a matrix modulo ``prime``, and the other columns as linear
+    combinations of the pivot columns.
 
-    A pivot column is not a linear combination of the columns to its left. The first result contains the
-    indices of the pivot columns. The second result contains every column that is not a pivot column, in the
-    form {column: {pivot column: coefficient}}. All coefficients are residues modulo ``prime``.
+    A pivot column is not a linear combination of the columns to its left. The second result has the form
+    {column: {pivot column: coefficient}}, where columns are denoted by their indices. The coefficients are
+    non-zero residues modulo ``prime``.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

@@ -1,17 +1,18 @@
 """A number field to which radicals and named roots are adjoined, until the field contains all coefficients of
 a method.
 
-A root b of a polynomial p over K = Q(a) is adjoined in three steps:
+Let K = Q(a) be a real number field, and b a real root of a polynomial p over K. The root is adjoined in three
+steps:
 
-1. In the algebra K[x]/(p), find an element c whose powers span the algebra: c = b + m a or c = a b, with an
-   integer m.
-2. Factor the characteristic polynomial of c.
-3. Choose the irreducible factor that has the real value of c as a root. Balls around this value exclude the
-   other factors.
+1. In the algebra K[x]/(p), find an element c whose powers span the algebra. The element is c = x + m a with
+   an integer m, or c = a x.
+2. Factor the characteristic polynomial of c over Q.
+3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r. Balls
+   around r exclude the other factors.
 
-The degree of the chosen factor is the degree of K(b) over Q. If K has the same degree over Q, then K
-contains b, and no new field is formed. For example, if K contains sqrt(2), then sqrt(8) is represented as
-2 sqrt(2).
+The number r generates K(b). Therefore the degree of the chosen factor is the degree of K(b) over Q. If K has
+the same degree, then K contains b, and K is not extended. For example, if K contains sqrt(2), then sqrt(8) is
+represented as 2 sqrt(2).
 """
 
 from __future__ import annotations
@@ -30,20 +31,19 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree over Q of the field of a :class:`Tower`. A root that needs a larger degree raises
-:class:`DegreeError`."""
+"""The largest degree over Q of the field of a :class:`Tower`."""
 MAX_DIMENSION = 64
-"""The largest dimension over Q of the algebra K[x]/(p) that is used to adjoin a root to the field K."""
+"""The largest dimension over Q of the algebra K[x]/(p) that is used to adjoin a root of p to a field K."""
 
 
 class DegreeError(ArithmeticError):
-    """The error that is raised if the degree of a field or the dimension of an algebra would become too
-    large."""
+    """The degree of a field would exceed MAX_DEGREE, or the dimension of an algebra would exceed
+    MAX_DIMENSION."""
 
 
 class Tower:
-    """A number field that grows when a root is adjoined. Elements of the smaller field can be combined with
-    elements of the larger field.
+    """A number field that grows when a root is adjoined. Elements from before the extension can be combined
+    with elements from after it.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -60,24 +60,24 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return the rational number ``value``. It must be exact, so ``unit`` must be 0.
+        """Return the rational number ``value``, if ``unit`` is 0.
 
-        A positive ``unit`` is the error bound of a rounded decimal. Then TypeError is raised, because only a
-        ball can represent a rounded decimal.
+        A positive ``unit`` is the error bound of a rounded decimal. An element of a number field cannot
+        represent a rounded decimal. Therefore a positive ``unit`` raises TypeError.
         """
         if unit:
             raise TypeError("a number field cannot represent a rounded decimal")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field as a ring, and a function that converts elements to this ring. If the
-        degree of the field is 1, the ring is QQ."""
+        """Return the current field, and a function that converts the elements of this tower to elements of
+        the field. If the degree is 1, the returned field is QQ."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
 
     def size(self, x: Algebraic) -> int:
-        """Return the number of bits of the largest integer in the representation of x."""
+        """Return the number of bits of the largest integer in the polynomial that represents x."""
         polynomial = x.polynomial
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
@@ -99,8 +99,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational number times a root of an integer. The integer is kept small. For
-        example, the square root of 8 becomes 2 sqrt(2)."""
+        """Return x^(1/index) as a rational number times a root of an integer. For example, the square root of
+        8 becomes 2 sqrt(2)."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -134,7 +134,8 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the only real root of ``minpoly`` (ascending coefficients) in [near - unit, near + unit].
+        """Return the only real root of a polynomial in [near - unit, near + unit]. ``minpoly`` contains the
+        coefficients of the polynomial by ascending powers.
 
         Raises ValueError if the interval does not contain exactly one root. Raises :class:`DegreeError` if
         the field would become too large.
@@ -148,19 +149,15 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Return a root b of the equation x^k = sum_j powers[j] x^j with k = len(powers), as an element of
-        the field. The function ``enclosure`` returns balls around b.
-
-        If the field does not contain b, the field is extended.
+        """Return a real root b of the equation x^k = sum_j powers[j] x^j, where k = len(powers). The function
+        ``enclosure`` computes balls around b. If the field does not contain b, the field is extended.
         """
         field = self.field
         if len(powers) == 1:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeError(
-                f"cannot adjoin a root: the algebra has dimension {dimension}, which is too large"
-            )
+            raise DegreeError(f"an exact root needs an algebra of dimension {dimension}, which is too large")
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -184,10 +181,10 @@ class Tower:
 
 
 class _Relation:
-    """A description of the algebra K[x]/(p) over Q, where K = Q(a) is a number field and p is a polynomial
-    over K. Every element of the algebra is a polynomial in one element c, with rational coefficients.
+    """A description of the algebra K[x]/(p), where K = Q(a) is a number field and p is a polynomial over K.
+    Every element of the algebra is a polynomial in one element c, with rational coefficients.
 
-    - ``characteristic``: the characteristic polynomial of c.
+    - ``characteristic``: the characteristic polynomial of c over Q.
     - ``a``: the element a as a polynomial in c.
     - ``b``: the residue class of x as a polynomial in c.
     """
@@ -199,12 +196,11 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m and the
+    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m that defines c, and the
     :class:`_Relation` of c. Here K = Q(a) is ``field``, and p is the polynomial x^k - sum_j powers[j] x^j
     with k = len(powers).
 
-    The number m defines c. Let b be the residue class of x. If m is an integer, then c = b + m a. If m is
-    None, then c = a b.
+    Let b be the residue class of x. If m is an integer, then c = b + m a. If m is None, then c = a b.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -233,10 +229,10 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of ``vector`` and c in the algebra K[x]/(p). See :func:`_primitive` for K, p and b,
-    and for the definition of c by the number m = ``multiplier``.
+    """Return the product of an element of the algebra K[x]/(p) and c. See :func:`_primitive` for K, p, b and
+    c. Here ``multiplier`` is the number m that defines c.
 
-    An element of the algebra is the list of its coefficients of 1, b, b^2, and so on.
+    The element is given by the list ``vector`` of its coefficients of 1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -250,8 +246,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return a matrix over Q with one column for each list in ``columns``. A list contains elements of a
-    number field. The column joins the coordinates of these elements, ``degree`` numbers for each element."""
+    """Return a matrix over Q. Each list in ``columns`` gives one column: the rational coefficients of its
+    elements, ``degree`` coefficients for each element."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -260,7 +256,7 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
     """Return the monic irreducible factor of ``characteristic`` with a given real root. The function
-    ``enclosure`` returns balls around this root."""
+    ``enclosure`` computes balls around the root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

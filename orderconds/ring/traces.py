@@ -1,9 +1,8 @@
 """A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
-An element is a constant or the result of an operation of the program.
 
-An algorithm that runs over this ring records its operations as a program. The program can be evaluated later
-for any values of the inputs. Equal operations are recorded once. Sums, products and quotients of two
-constants are computed immediately and not recorded. Sums with 0 and products with 0 or 1 are not recorded.
+If an algorithm runs over this ring, its operations are recorded. The program can be evaluated later for any
+values of the inputs. Equal operations are recorded once. Sums, products and quotients of two constants are
+computed immediately and not recorded. Sums with 0 and products with 0 or 1 are not recorded, either.
 """
 
 from __future__ import annotations
@@ -16,15 +15,16 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""The kinds of operations. CONSTANT gives a rational number, and INPUT gives an input of the program."""
+"""The kinds of operations. The result of CONSTANT is a rational number. The result of INPUT is an input."""
 
 
 @dataclass(frozen=True)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are the indices of the operations that compute the operands. A constant and an
-    input have no operands. The meaning of ``value`` depends on ``kind``:
+    ``left`` and ``right`` are the indices of the operations that compute the operands. A constant or an input
+    has no operands, and its ``left`` and ``right`` are not used. The meaning of ``value`` depends on
+    ``kind``:
 
     - CONSTANT: the rational number.
     - INPUT: the position of the input among all inputs.
@@ -42,6 +42,7 @@ class Traces:
     result of an operation. The list ``operations`` contains all recorded operations.
 
     In the example, the program has two inputs (kind INPUT = 5), a sum (ADD = 0) and a product (MULTIPLY = 1).
+    The sum x + y is recorded once. The product 0 * x is the constant 0 and is not recorded.
 
     >>> R = Traces(2)
     >>> x, y = R.inputs
@@ -68,7 +69,8 @@ class Traces:
         return Trace(self, place)
 
     def rational(self, p: int, q: int = 1) -> Trace:
-        """Return the constant p/q. It is recorded together with the first operation that uses it."""
+        """Return the constant p/q. The constant is recorded when the first operation that uses it is
+        recorded."""
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
@@ -76,16 +78,16 @@ class Traces:
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
-        """Return the text of an element x. If x is a constant, the text is a rational number. If x is the
-        result of the operation with index n, the text is ``%n``."""
+        """Return the rational number as text if x is a constant. Return ``%n`` if x is the result of the
+        operation with index n."""
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
-        """Return the text of the element as the sort key, because the text identifies the element."""
+        """Return the text of x in a tuple, as a sort key. Different elements have different texts."""
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return the same text as :meth:`text`. A result of an operation has no known numerical value."""
+        """Return ``text(x)``, because the value of x depends on the inputs."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -107,8 +109,8 @@ class Traces:
 
 
 class Trace:
-    """An element of the ring :class:`Traces`. An element is a rational number, or the result of a recorded
-    operation. In the second case, ``place`` is the index of the operation."""
+    """An element of the ring :class:`Traces`: a rational number, or the result of a recorded operation. For a
+    result, ``place`` is the index of the operation, and ``constant`` is None."""
 
     __slots__ = ("constant", "place", "ring")
 
@@ -119,12 +121,12 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation that gives this element. A constant is recorded as an operation
-        first."""
+        """Return the index of the operation whose result is this element. If the element is a constant, it is
+        recorded first."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
-        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # otherwise x is an int
+        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # x is a Trace or an int
 
     def __add__(self, other: Element) -> Trace:
         y = self._lift(other)
@@ -173,8 +175,8 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the results of all ``operations``, computed in ``ring`` for the given ``inputs``. The ring must
-    have division. If an operation is a root, the ring must also have roots.
+    """Return the results of all ``operations``, computed in ``ring`` for the given ``inputs``. If the
+    operations contain quotients or roots, ``ring`` must support them.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

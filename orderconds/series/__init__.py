@@ -6,5 +6,5 @@
 - ``action``: the series of variational methods.
 - ``characters``: the series of the composition of two steps, and of the inverse of a step.
 - ``modified_equations``: the series of the modified equation (backward error analysis).
-- ``substitution``: the series of a step after the vector field is replaced by a series.
+- ``substitution``: the series of a step whose vector field is itself a series.
 """

@@ -4,18 +4,18 @@ Let q0 be the initial position and mu1 the final momentum of a step. The velocit
 stage are expanded about (q0, mu1). The expansions are sums over trees
 (:mod:`orderconds.series.action_trees`). A tree of a velocity is a pair t = (w, M). A tree of a momentum has
 the form H(u*v|M) or L(w). Here u, v and w are words of smaller trees, and M is a multiset of smaller trees.
-Let b_i be the weight of stage i. The coefficients of the trees at stage i are
+Let b_i be the weight of stage i. The coefficients of the trees in the expansions of stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
 
 Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element. The letter x is a variation that is added to the velocity of stage
-i.
+coefficient of a word in a group element. The letter x denotes a variation of the velocity of stage i. The
+word reverse(w) has the letters of w in reverse order.
 
-For every tree t with at most p vertices, a method of order p satisfies one condition: ``sum_i b_i tau_t(i)``
-is equal to the coefficient of t in the exact flow. If all these conditions hold, the method has order p.
+The order condition of a tree t is: ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow.
+A method has order n if and only if the conditions of all trees t = (w, M) with at most n vertices hold.
 
 In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
 :mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
@@ -35,18 +35,19 @@ Stages = list[Element]
 """A vector with one ring element for each stage of the method."""
 
 Exponential = tuple[tuple[int, Element], ...]
-"""The exponent of one exponential, as pairs (stage, coefficient). Zero coefficients are omitted."""
+"""The exponent of one exponential: a linear combination of the stage velocities. It is stored as pairs
+(stage, coefficient), without zero coefficients."""
 
 Row = tuple[Exponential, ...]
-"""The exponentials of one group element. The first exponential acts first."""
+"""A group element that is a product of exponentials. The first exponential in the tuple acts first."""
 
 
 class ActionSeries(ABC):
-    """The action series of one method over one ring. Computed values are cached.
+    """The action series of one method, with coefficients in ``ring``. Computed coefficients are cached.
 
-    The weights b_i must be invertible in ``ring``. The argument ``row`` of the methods selects a group
-    element. If ``row`` is the index of a stage, it selects the group element of this stage. If ``row`` is the
-    number of stages, it selects the group element of the update.
+    The weights b_i must be invertible in ``ring``. An argument ``row`` selects a group element. If ``row`` is
+    the index of a stage, it selects the group element of this stage. If ``row`` is the number of stages, it
+    selects the group element of the update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -67,22 +68,22 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element that ``row`` selects."""
+        """Return the coefficient of a word in the group element of a stage or of the update (see the class
+        for ``row``)."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
-        ``before``, the letter x and ``after``. The letter x is a variation that is added to the velocity of
-        stage ``stage``."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element that ``row``
+        selects. The letter x denotes a variation of the velocity of stage ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return one number for each stage: the coefficient of a word of trees in the group element of the
-        stage."""
+        """Return one number for each stage i: the coefficient of a word of trees in the group element of
+        stage i."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
         """Return one number for each stage i: the coefficient tau_t(i) of the g-valued tree t = ``tree`` in
-        the velocity of this stage."""
+        the series of the velocity of stage i."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -97,7 +98,7 @@ class ActionSeries(ABC):
 
     def psi(self, tree: Momentum) -> Stages:
         """Return one number for each stage i: the coefficient psi_p(i) of the g*-valued tree p = ``tree`` in
-        the momentum of this stage."""
+        the series of the momentum of stage i."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -106,8 +107,8 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return one number for each stage i: the product of the coefficients psi_p(i) (see :meth:`psi`) of
-        all trees p in ``momenta``."""
+        """Return one number for each stage i: the product of psi_p(i) (see :meth:`psi`) over all trees p in
+        ``momenta``."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -151,24 +152,22 @@ class ActionSeries(ABC):
         """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i).
 
         This number is the coefficient of t in the update. It is also the coefficient of the elementary
-        Hamiltonian of t in the generating function of the step. To save memory, the coefficients tau_t(i) are
-        not stored in the cache.
+        Hamiltonian of t in the generating function of the step. To save memory, this method does not cache
+        the coefficients tau_t(i).
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficients in the group element of the update, as a map {word: coefficient}. The map
-        contains all words of trees with at most ``vertices`` vertices.
+        """Return the coefficients of words in the group element of the update, as a map {word: coefficient}.
+        The map contains all words of trees with at most ``vertices`` vertices in total.
 
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. At (q0, mu1),
-        each tree t defines a right-invariant vector field on the group. Let ``F(t)`` be this field, divided
-        by the order of the symmetry group of t.
-        For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ... t_k`` of
-        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``.
-
-        The function :meth:`orderconds.series.action_fields.ActionFields.local_error` uses these coefficients.
+        each tree t denotes an element of g, and therefore a right-invariant vector field on the group. Let
+        ``F(t)`` be this field, divided by the order of the symmetry group of t. For every smooth function f
+        on the group, ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words
+        ``w = t_1 ... t_k``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -177,7 +176,8 @@ class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials.
 
     ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
-    b_i is the sum of the coefficients of stage i in the update (Bogfjellmo and Marthinsen, equation (3.18)).
+    b_i is the sum of the coefficients of the velocity of stage i in the exponents of the update (Bogfjellmo
+    and Marthinsen, equation (3.18)).
 
     The example computes the left-hand sides of the order conditions of the three trees with two vertices.
 
@@ -205,15 +205,14 @@ class CommutatorFreeSeries(ActionSeries):
 
         Let phi_J(t) be the coefficient of the letter t in the exponent of exponential J. The coefficient of
         the word is a sum over all sequences J_1 <= ... <= J_k of indices of exponentials. The term of a
-        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k. If an index occurs n times in
-        the sequence, the term is divided by n!.
+        sequence is the product of the numbers phi_{J_l}(t_l) for l = 1, ..., k. For every index that occurs n
+        times in the sequence, the term is divided by n!.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
-        ``before``, the letter x and ``after``. The letter x is a variation that is added to the velocity of
-        stage ``stage``."""
+        """Return the coefficient of the word (``before``, x, ``after``) in the group element that ``row``
+        selects. The letter x denotes a variation of the velocity of stage ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -222,9 +221,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of one word in the group element that ``row`` selects. The word consists of
-        ``before``, the letter x and ``after``. The letter x is added to the exponent of the exponential with
-        index ``place``. The other exponents do not contain x."""
+        """Add a letter x to the exponent of the exponential with index ``place``. Return the coefficient of
+        the word (``before``, x, ``after``) in the group element that ``row`` selects."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -253,8 +251,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return a list of coefficients for the group element that ``row`` selects. Entry k is the
-        coefficient of ``word`` in the product of the first k exponentials."""
+        """Return a list: entry k is the coefficient of ``word`` in the product of the first k exponentials of
+        the group element that ``row`` selects."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -275,8 +273,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return a list of coefficients for the group element that ``row`` selects. Entry k is the
-        coefficient of ``word`` in the product without the first k exponentials."""
+        """Return a list: entry k is the coefficient of ``word`` in the product of all exponentials except the
+        first k, for the group element that ``row`` selects."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known
@@ -299,8 +297,8 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of each stage and of the update, for a Butcher tableau (A, b) in the family
-    ``vcg``. Each non-zero coefficient gives one exponential.
+    """Return the exponentials of each stage and of the update of the method with Butcher tableau (A, b) in
+    the family ``vcg``. Each non-zero entry of A and b gives one exponential.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])
