@@ -68,11 +68,11 @@ the order depends on the option ``cutoff`` of the family, the value is a list of
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The base class of all formats. It defines the keys that all formats share. The values in the table
-    ``numbers`` have the type :data:`Number`. The values in the table ``claims`` have the type :data:`Claim`.
+    """The base class of all formats. It defines the keys that all formats share.
 
-    ``family`` is the name of the format, and also of a family of methods. ``order`` is the claimed order of
-    the method in this family.
+    ``family`` is the name of the format, such as ``rk``. A family of methods has the same name. ``order`` is
+    the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 
     name: str
@@ -85,18 +85,19 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     proof: ProofEntry | None = None
 
     in_arrays: ClassVar[bool] = False
-    """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format can be stored as arrays with names
+    (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array that identifies this format among named arrays
-    (:func:`orderconds.tableau.formats.array_format`). The name is empty for the default format."""
+    """The name of an array. If a tableau is stored as arrays, the name identifies the format. It is empty for
+    the default format (:func:`orderconds.tableau.formats.array_format`)."""
     as_products: ClassVar[bool] = False
-    """True if a tableau of this format consists of products of exponentials. In named arrays, the
-    coefficients of the products form the array ``exponentials`` (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format consists of products of exponentials. If such a tableau is stored as
+    arrays, the array ``exponentials`` contains the coefficients (:mod:`orderconds.exchange.arrays`)."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for the missing keys of a tableau in named arrays. ``names`` contains the
-        names of the arrays."""
+        """Return default values of keys for a tableau that is stored as arrays. ``names`` contains the names
+        of the arrays."""
         return {}
 
     def coefficients(self) -> Places:

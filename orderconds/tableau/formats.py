@@ -147,7 +147,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
                     f"c_{i + 1} = {ring.text(given)}, but the sum of row {i + 1} of A is {ring.text(total)}",
                     where=f"{self.name}: c[{i + 1}]",
                     expected="c_i = sum_j a_ij",
-                    hint="correct the row of A, or leave c out: the program computes c from A",
+                    hint="correct the row of A, or leave c out: it is computed from A",
                 )
 
 
@@ -319,8 +319,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check the product of exponentials ``entry``. No row may have more than s entries, where s is the number
-    of stages. The product must act on y0 or on one of the first ``before`` stages."""
+    """Check that the rows of ``entry.exp`` have at most s entries, where s is the number of stages. Check
+    that the key ``from`` is missing or between 1 and ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -357,10 +357,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau that is stored in named arrays. ``names`` contains the names of the
-    arrays. A format fits if ``names`` contains the ``distinctive_key`` of the format. If several formats fit,
-    return the format whose name comes first in the alphabet. If no format fits, return the default format,
-    ``composition``.
+    """Return the format of a tableau that is stored as arrays with these ``names``. A format fits if
+    ``names`` contains the ``distinctive_key`` of the format. If several formats fit, return the format whose
+    name comes first in the alphabet. If no format fits, return the default format, ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

@@ -323,9 +323,10 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Round a decimal to the nearest double, and return the ball of this double. The function
-        :func:`~orderconds.tableau.doubles.radius` defines the radius. For the double 0, the radius is zero.
-        Raises TableauError if the decimal is too large for a double."""
+        """Round the decimal ``content`` to the nearest double, and return the ball of this double.
+
+        The function :func:`~orderconds.tableau.doubles.radius` defines the radius. For the double 0, the
+        radius is zero. Raises TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

@@ -14,8 +14,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def root() -> Path:
     """Return the folder of tableau files.
 
-    In the source tree of the project, this is the folder ``tableaux``. An installed package contains a copy
-    of this folder. The function of the installed package returns the path of this copy.
+    In the source tree of the project, this is the folder ``tableaux``. In an installed package, it is a copy
+    of ``tableaux`` inside the package.
 
     >>> root().is_dir()
     True

@@ -101,8 +101,8 @@ class _Reader:
 
 
 def at_top(latex: str, token: str) -> bool:
-    """Return True if ``token`` occurs in a formula outside of braces. A token is a LaTeX command or a single
-    character.
+    """Return True if the formula ``latex`` contains ``token`` outside of braces. A token is a LaTeX command
+    or a single character.
 
     >>> at_top("a + b", " "), at_top(r"\\frac{a + b}{c}", " ")
     (True, False)

@@ -102,8 +102,8 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symmetric (HLW Theorem V.2.3).
 
     The condition for all i and j is: a_{s+1-i,s+1-j} + a_ij = b_j. Here s is the number of stages, and a_ij
-    and b_j are the entries of ``A`` and ``b``. The function uses the given order of the stages. It does not
-    search for another order that satisfies the condition.
+    and b_j are the entries of ``A`` and ``b``. The condition depends on the numbering of the stages. The
+    function tests only the given numbering.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -164,11 +164,11 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 
 
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
-    """Return True if a step of length -h undoes a step of length h (HLW V.3).
+    """Return True if the method is symmetric: a step of size -h undoes a step of size h (HLW V.3).
 
-    - A composition has s pairs of substeps. The first substep of pair i is the adjoint of a basic method with
-      the step size beta_i h. The second substep is the basic method with the step size alpha_i h. The
-      composition is symmetric if alpha_{s+1-i} = beta_i for all i.
+    - A composition has s pairs of substeps. In pair i, the adjoint of the basic method takes a substep of
+      size beta_i h. Then the basic method takes a substep of size alpha_i h. The composition is symmetric if
+      alpha_{s+1-i} = beta_i for all i.
     - A splitting is a list of flows with step sizes. A splitting is symmetric if its list is a palindrome.
     - For Magnus methods, see :mod:`orderconds.tableau.reversal`.
 

@@ -49,7 +49,7 @@ class RungeKutta:
         """Return the Crouch-Grossman method with the coefficients of this tableau.
 
         Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, where k_j is the vector field at stage j. The
-        update has the same form, with b_j in place of a_ij (HLW IV.8.3, (1.4)). An exponential is omitted if
+        update has the same form, with b_j in place of a_ij (HLW IV.8.1). An exponential is omitted if
         its coefficient is provably zero.
         """
 
@@ -88,8 +88,7 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the Runge-Kutta method (A, b) for the variables y. For a system y' = f(y) without variables
-        z, the partitioned method is equal to this Runge-Kutta method."""
+        """Return the Runge-Kutta method (A, b), which the partitioned method uses for y."""
         return RungeKutta(self.A, self.b)
 
 
@@ -127,7 +126,8 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return all exponentials that lead from y0 to ``stage``. The first exponential acts first."""
+        """Return the rows of all exponentials between y0 and the value of ``stage``. The first row acts
+        first."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 
@@ -136,8 +136,7 @@ class CommutatorFree:
         fields.
 
         The function simplifies both products (:func:`_reduced`) and compares their exponents. If two
-        products are equal for all vector fields, their simplified exponents agree (Chen 1958, on piecewise
-        linear paths).
+        products are equal for all vector fields, their simplified exponents agree (Chen 1958).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -201,8 +200,8 @@ class Composition:
         """Return the composition as a diagonally implicit Runge-Kutta method. The basic method is the
         implicit midpoint rule.
 
-        The coefficients are b_i = gamma_i, a_ii = gamma_i/2, and a_ij = gamma_j for j < i (Lemma 3.5.4 of
-        Bogfjellmo and Marthinsen).
+        The coefficients are b_i = gamma_i, a_ii = gamma_i/2, and a_ij = gamma_j for j < i (Bogfjellmo and
+        Marthinsen 2016, Lemma 3.5.4).
         """
         half = ring.rational(1, 2)
         A = tuple(
