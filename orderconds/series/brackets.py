@@ -64,7 +64,7 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return the program as text, one line for each bracket or argument. The step size h is omitted, and
+        """Return a text with one line for each bracket and each argument. The step size h is omitted, and
         indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
@@ -80,11 +80,11 @@ def fewest_brackets(
     the Runge-Kutta-Munthe-Kaas method of the tableau.
 
     The order of the tableau must be ``order``. The ring must have division and decide whether an element is
-    zero. The first searches use a lower bound as the largest allowed number of brackets. If all searches
-    fail, the function repeats the searches with one more bracket.
+    zero. The first search allows as many brackets as a lower bound for their number. If a search fails, it is
+    repeated with one more bracket.
 
-    The coefficients of the program solve equations with free parameters. The function tries the value zero
-    for all parameters, and then ``attempts`` choices of small pseudorandom numbers. Raises
+    The coefficients of the program solve equations with free parameters. First, all parameters are set to
+    zero. Then ``attempts`` choices of small pseudorandom numbers are tried. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -149,8 +149,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments u_1/h, ..., u_s/h of the stages and u/h of the step as polynomials in the letters
-    q_1, q_2, ...."""
+    """Return the arguments u_1, ..., u_s of the stages and u of the step, divided by h. They are polynomials
+    in the combinations q_j of the module docstring."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -169,9 +169,9 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return, for each stage i, the combinations of arguments that the program computes before u_i.
 
-    A combination has the form u_j - c u_i, where c is a number, and j > i is a later stage. The combination
-    seems to need fewer brackets than u_i and fewer brackets than u_j. If a term of u_j is a single letter
-    that the program computes after u_i, this term is omitted.
+    A combination has the form u_j - c u_i with a number c and a later stage j. It probably needs fewer
+    brackets than each of u_i and u_j. If a term of u_j is a single letter that is not known before u_i, it is
+    omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -215,8 +215,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield an infinite sequence of shapes (:class:`_Shape`) with increasing numbers of brackets. ``pool`` is
-    the number of known elements."""
+    """Yield an infinite sequence of shapes (:class:`_Shape`), sorted by the number of brackets. ``pool`` is
+    the number of elements in the pool."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -226,11 +226,11 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program. The arguments of the exponentials are expressed one after another by known
-    elements and new brackets.
+    """A search for a program. Each argument of an exponential is expressed by known elements and new
+    brackets.
 
-    ``pool`` contains a pair (element, row) for each known element. The row contains the coefficients of the
-    element as a combination of stage values and brackets. ``most`` is the largest allowed number of brackets.
+    ``pool`` contains a pair (element, row) for each known element. The row expresses the element by stage
+    values and brackets (:class:`BracketProgram`). ``most`` is the largest allowed number of brackets.
     """
 
     def __init__(
@@ -244,9 +244,9 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return a program that computes the arguments u_i = ``arguments[i]`` one after another. Immediately
-        before u_i, the program computes the elements ``before[i]``. Return None if the search finds no
-        program with the allowed number of brackets."""
+        """Return a program that computes ``arguments[0]``, ``arguments[1]``, ... in this order. Before
+        ``arguments[i]``, the program computes the elements ``before[i]``. If the search needs more than
+        ``most`` brackets, return None. ``least`` becomes an attribute of the program."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -275,8 +275,8 @@ class _Search:
         Return the row of the argument, or None if no suitable brackets are found.
 
         The equations contain products of the unknowns x and y of :class:`_Shape`, and are solved by
-        iteration. Each iteration replaces one factor of every product by a known value, and solves linear
-        equations."""
+        iteration. Each iteration gives one factor of each product a known value, and solves the linear
+        equations that remain."""
         if shape.leading and len(self.pool) < 3:
             return None
         for fixed_left in (False, True) if shape.leading else (False,):
@@ -303,8 +303,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements with the least grade. The first two pool elements are not
-        considered."""
+        """Return the indices of the elements of least grade in ``pool[2:]``. The combination x of
+        :class:`_Shape` contains only elements of ``pool[2:]``."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -325,8 +325,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. A
-        search with random numbers may choose one of several solutions at random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
+        there are several solutions and the search uses random numbers, the choice is sometimes random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -345,8 +345,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return a pair (name, polynomial) for each unknown of the linear equations. In the equations, the
-        polynomial is the factor of the unknown."""
+        """Return a pair (name, column) for each unknown of the linear equations. The column is the polynomial
+        by which the unknown is multiplied."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -370,9 +370,9 @@ class _Search:
         """Add the new brackets that ``shape`` describes to the pool. ``numbers`` maps the names of the
         unknowns to their values. Return three values:
 
-        - The row of the argument.
-        - The argument as a polynomial.
-        - The linear combination y of :class:`_Shape` as a polynomial.
+        - the row of the argument that these brackets express
+        - this argument as a polynomial
+        - the linear combination y of :class:`_Shape` as a polynomial
         """
         one, size = self.ring.one, len(self.pool)
 

@@ -44,7 +44,8 @@ ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
 coefficient 1/gamma (HLW III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
-"""The algebra of ordered forests, for Lie-Butcher series. The first tree of a forest acts first."""
+"""The algebra of ordered forests, for Lie-Butcher series. A forest denotes a product of operators. The
+operator of its first tree acts first."""
 
 
 class Character:
@@ -115,11 +116,9 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over all admissible cuts. A summand is the product of the coefficients of all
-        components in this step and the coefficient of the rest in ``other``.
-
-        If ``whole`` is false, the cut that removes nothing is omitted.
-        """
+        """Return a sum over the admissible cuts of a tree or forest. For each cut, multiply the coefficient
+        of the rest in ``other`` by the coefficients of the components in this step. If ``whole`` is false,
+        omit the cut that removes nothing."""
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
             if components or whole:

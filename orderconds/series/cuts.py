@@ -1,7 +1,7 @@
-"""Admissible cuts of trees and forests. The series of a composition of two steps is a sum over all admissible
-cuts.
+"""Admissible cuts of trees and forests. In the composition of two steps, the coefficient of a tree or forest
+is a sum over its admissible cuts.
 
-A cut removes components from a tree or forest. The part that remains is called the rest.
+A cut removes parts, called components, from a tree or forest. The part that remains is called the rest.
 
 - For unordered trees, a cut is a set of edges. Each path from the root contains at most one of these edges
   (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees). One additional cut removes the whole tree.
@@ -21,8 +21,8 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). If a cut removes the whole tree or forest, then the whole is the only
-component, and the rest is empty."""
+"""A cut, as a pair (components, rest). If a cut removes a whole tree or forest, this tree or forest is the
+only component, and the rest is empty."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
@@ -30,7 +30,7 @@ Cuts = Callable[[bytes], tuple[Cut, ...]]
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
     r"""Return every cut of a canonical rooted tree. If the tree has equal branches, equal cuts are returned
-    several times. The last cut cuts off the whole tree.
+    several times. The last cut removes the whole tree.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))
@@ -48,7 +48,7 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
 
 @lru_cache(maxsize=1 << 14)
 def left_cuts(forest: Forest) -> tuple[Cut, ...]:
-    r"""Return every left admissible cut of an ordered forest. The last cut cuts off the whole forest.
+    r"""Return every left admissible cut of an ordered forest. The last cut removes the whole forest.
 
     >>> left_cuts(b"\0\0")
     (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))

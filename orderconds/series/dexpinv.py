@@ -4,9 +4,11 @@ The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j 
 is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x, where
 ad_u x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (HLW IV.8.3).
 
+The truncation index r is the highest power of ad_u. If dexpinv is not truncated, r is infinite.
+
 The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
-factor y acts first, so the letters of y precede the letters of x in a word. HLW denotes Hairer, Lubich and
-Wanner, *Geometric Numerical Integration*.
+factor y acts first. Hence the words of this product begin with the letters of y. HLW denotes Hairer, Lubich
+and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -67,9 +69,9 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """If ``step`` is 0, return the coefficients of ``word`` in exp(u_i) for all stages i. If ``step`` is
-        1, return a list with one entry: the coefficient of ``word`` in exp(u). Here u_i is the argument of
-        stage i, and u is the argument of the step."""
+        """Return coefficients of ``word`` in exponentials. If ``step`` is 0, the list has one entry for each
+        stage: the coefficient in exp(u_i), where u_i is the argument of stage i. If ``step`` is 1, the only
+        entry is the coefficient in exp(u), where u is the argument of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -82,9 +84,9 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """If ``step`` is 0, return the coefficients of ``word`` in u_i^n for all stages i. If ``step`` is 1,
-        return a list with one entry: the coefficient of ``word`` in u^n. Here u_i is the argument of stage i,
-        and u is the argument of the step."""
+        """Return coefficients of ``word`` in n-th powers. If ``step`` is 0, the list has one entry for each
+        stage: the coefficient in u_i^n, where u_i is the argument of stage i. If ``step`` is 1, the only
+        entry is the coefficient in u^n, where u is the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -99,8 +101,8 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the truncated series dexpinv_{u_j} k_j for all stages j.
-        Stage j has the argument u_j and the stage value k_j."""
+        """Return a list with one entry for each stage j: the coefficient of ``word`` in the truncated series
+        dexpinv_{u_j} k_j. Stage j has the argument u_j and the stage value k_j."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -114,8 +116,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficients of the words v k_j w in the truncated series dexpinv_{u_j} k_j for all
-        stages j. If all coefficients are zero, return None.
+        """Return a list with one entry for each stage j: the coefficient of the word v k_j w in the truncated
+        series dexpinv_{u_j} k_j. Return None if no term of the series contains such words.
 
         Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The word v is
         ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
@@ -133,7 +135,7 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x in which a word v x w occurs, as triples (q, m, n).
+        """Return the terms q u^n x u^m of dexpinv_u x that may contain a word v x w, as triples (q, m, n).
         Here q is a number, v has ``before`` letters, and w has ``behind`` letters.
 
         In a product, the rightmost factor acts first. In a word, the first letter acts first. Hence v is a
@@ -174,7 +176,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache keeps all numbers, because each number is computed from all earlier numbers.
+@cache  # The cache has no size limit, because B_k is computed from B_0, ..., B_(k-1).
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 

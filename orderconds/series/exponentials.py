@@ -24,7 +24,7 @@ from orderconds.words.shuffle import Word
 class ProductOfExponentials:
     """The coefficients of words in the product exp(X_(count-1)) ... exp(X_0), where exp(X_0) acts first.
 
-    ``letter(J, k)`` returns the coefficient of letter k in X_J, or None if letter k never occurs in X_J.
+    ``letter(J, k)`` returns the coefficient of letter k in X_J, or None if X_J does not contain letter k.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
@@ -44,7 +44,7 @@ class ProductOfExponentials:
         return self._sweep(word)[-1]
 
     def _sweep(self, word: Word) -> list[Element]:
-        """Return the coefficients of ``word`` in the products of the first 0, 1, ..., ``count``
+        """Return a list. Entry n is the coefficient of ``word`` in the product of the first n
         exponentials."""
         values = self._partial.get(word)
         if values is None:
@@ -55,8 +55,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over r. In term r, the last r letters of the word come from
-                # exp(X_J). All other letters come from exp(X_0), ..., exp(X_(J-1)).
+                # The coefficient is a sum over the number r of letters that come from exp(X_J). They are
+                # the last r letters of the word. The other letters come from exp(X_0), ..., exp(X_(J-1)).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -56,9 +56,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Triples (product, shorter, last), one for each non-empty partial product of exponentials.
-        ``product`` is the index of the partial product. Its last exponential has the exponent
-        ``_rows[last]``. Without this exponential, the partial product has the index ``shorter``."""
+        """Triples (product, shorter, last), one for each non-empty partial product of exponentials. The
+        partial product with the index ``product`` is the partial product with the index ``shorter``, followed
+        by the exponential of ``_rows[last]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -121,13 +121,14 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list with one entry for each partial product. For the partial products in ``places``, the
-        entry is the coefficient of ``word``, which must not be empty. All other entries are zero. The
-        format of ``places`` is described at ``self._places``."""
+        """Return the coefficients of a non-empty word in the partial products of ``places``, which has the
+        format of ``self._places``. The list has one entry for each partial product of the method. The entries
+        for partial products outside ``places`` are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The coefficient in a partial product is a sum over r. In term r, the last exponential contributes
-        # the last r letters of the word. The earlier exponentials contribute all other letters.
+        # The coefficient in a partial product is a sum over the number r of letters that come from the last
+        # exponential. They are the last r letters of the word. The other letters come from earlier
+        # exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]

@@ -1,11 +1,11 @@
 """Selection of independent order conditions for a family of methods. Each ordered forest has one condition.
-The left-hand sides of the conditions for random methods of the family form a matrix. The rank of this matrix
-shows which conditions are independent.
+The left-hand sides are evaluated for random methods of the family. They form a matrix with one row for each
+method and one column for each condition. Linear algebra shows which columns are independent.
 
 A condition is omitted if it follows from earlier conditions. In this case, its left-hand side is a linear
-combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand sides
-must satisfy the same linear relation. To test this, one row of the matrix contains the right-hand sides. They
-are the coefficients in the exact flow.
+combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand
+sides are the coefficients in the exact flow, and must satisfy the same linear relation. For this reason, one
+row of the matrix contains the right-hand sides.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns one series for many random methods of a family. The methods are called samples. A
-coefficient of the series is a vector of numbers modulo a prime. Each sample has one number in this vector."""
+"""A function that evaluates the series of many random methods of a family, called samples. A coefficient is a
+vector with one number modulo a prime for each sample."""
 
 SPARE_SAMPLES = 20
 """The number of samples beyond the largest possible rank. These additional samples make accidental
@@ -34,14 +34,14 @@ def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
     """Return the forests whose order conditions are independent, as one tuple for each order. ``candidates``
-    contains a sequence of forests for each order 1, 2, .... A forest is omitted if its condition depends on
+    contains a sequence of forests for each order 1, 2, .... A forest is omitted if its condition follows from
     the conditions of earlier forests.
 
     The order condition of a forest requires equal coefficients in the method and in the exact flow. If
     ``with_exact_flow`` is false, only the coefficients in the method are tested for independence.
 
-    The forests are selected modulo two primes, and the larger selection is returned. A selection modulo a
-    prime can be too small, because a rank modulo a prime is at most the rank over Q.
+    The forests are selected modulo two primes, and the larger selection is returned. A selection may
+    lack a forest, because a rank modulo a prime can be less than the rank over Q.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -58,8 +58,8 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # Each order has a matrix with one row for each sample. The rank of the matrix is at most the number of
-    # ordered forests of this order. The number of samples must exceed this bound for the highest order.
+    # For each order, a matrix has one row for each sample. Its rank is at most the number of ordered forests
+    # of this order. Hence the highest order determines the number of samples.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -1,7 +1,7 @@
 """Products of exponentials or of Cayley transforms for the equation Y' = A(t) Y.
 
-An exponent is a linear combination of words. It is given by a function that maps a word to its coefficient.
-The letter k denotes the coefficient of t^(k-1) in the matrix A(t). The weight of the letter k is k. The first
+An exponent is a linear combination of words. It is represented by a function that maps a word to its
+coefficient. The letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The first
 letter of a word acts first.
 """
 
@@ -34,11 +34,11 @@ function returns the coefficients of the inverse function of this series."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the function that maps each word to its coefficient in Omega, where exp(Omega) is the product of
-    the exponentials of ``exponents``. The exponential of the first exponent acts first.
+    """Return the function that maps a word to its coefficient in Omega. The exponential of Omega is the
+    product of the exponentials of ``exponents``. The exponential of ``exponents[0]`` acts first.
 
-    If ``transform`` is ``cay``, then cay(Omega) is the product of the Cayley transforms of ``exponents``.
-    Here cay(x) = (1 - x/2)^-1 (1 + x/2). If there is only one exponent, Omega is equal to this exponent.
+    If ``transform`` is ``cay``, the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2) replaces the
+    exponential.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

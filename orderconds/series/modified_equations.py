@@ -1,11 +1,11 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
 One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
-+ .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Let c be a function on
-trees. The linear map L maps c to the function L c. The value (L c)(t) is a sum over all edges of t. Removing
-an edge divides t into a subtree u and the part r that contains the root. The summand is b(u) c(r). Then a =
-sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math.
-539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
++ .... Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. A linear map L is defined on
+functions c of trees: the value (L c)(t) is the sum of b(u) c(r) over all edges of t. If the edge is removed,
+t falls into a subtree u and the part r with the root. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On
+ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -65,20 +65,18 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the coefficient of a tree or forest in the flow minus its coefficient in the vector field.
-        Only the coefficients of smaller trees or forests in the vector field are used."""
+        """Return the difference of two coefficients of a tree or forest: the coefficient in the flow minus
+        the coefficient in the vector field. The difference depends only on the coefficients of smaller trees
+        or forests in the vector field."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b for a tree or forest. The function b maps a tree or forest to its
-        coefficient in this vector field.
-
-        The linear map L maps a function c to the function L c. The value (L c)(forest) is a sum over cuts
-        that remove one component and leave a non-empty rest. The summand is b(component) c(rest).
-        """
+        """Return the value of L^(n-1) b for a tree or forest. Here b(forest) is the coefficient in this
+        vector field. The value (L c)(forest) is the sum of b(component) c(rest) over all cuts that remove one
+        component and leave a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):

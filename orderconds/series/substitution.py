@@ -6,10 +6,10 @@ Each partition has a quotient tree, in which each component becomes one vertex. 
 of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
 Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2).
 
-For Lie-Butcher series, the image of a forest is the result of replacing the vector field in this forest. The
-images are computed recursively. For a tree, the image of the forest of its branches is grafted onto the new
-vector field. For a forest, the images of the trees are concatenated (Lundervold and Munthe-Kaas, Contemp.
-Math. 539 (2011) 295, Section 4.3).
+For Lie-Butcher series, each vertex of an ordered forest denotes the vector field f. The image of a forest is
+the linear combination of forests that results if f is replaced. Images are computed recursively. For a tree,
+the image of the forest of its branches is grafted onto the series that replaces f. For a forest, the images
+of its trees are concatenated (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Apply the method ``step`` to the vector field ``field`` instead of f, and return the series of the
-    result. The coefficients of ``step`` and ``field`` must be elements of the same ring.
+    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
+    coefficients of ``step`` and ``field`` must be elements of the same ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
@@ -63,8 +63,8 @@ def modifying_field(step: Character) -> VectorField:
 
     Truncate the modifying field after the power h^(p-1) and apply ``step`` to the truncated field. The result
     is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
-    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if the sum of its weights
-    is proved to differ from 1.
+    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series. It is also raised if the sum
+    of the weights of the method is proved to differ from 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -84,9 +84,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The sum over all partitions must equal ``flow(tree)``. For the partition into one component, the
-        # summand is ``field(tree)``, because the step is consistent. Hence ``field(tree)`` is ``flow(tree)``
-        # minus all other summands.
+        # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
+        # summand ``field(tree)``, because the step is consistent. The equation is solved for this summand.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -94,9 +93,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Apply the method ``step`` to the vector field ``field``, and return the coefficient of a tree in the
-    resulting series. The coefficient is a sum over partitions of the tree. If ``whole`` is false, the
-    partition into one component is omitted."""
+    """Return the coefficient of a tree in the series ``substituted(field, step)``, as a sum over partitions
+    of the tree. If ``whole`` is false, the sum omits the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -124,11 +122,11 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Partition a tree by removing edges. ``cut`` contains one flag for each edge in preorder, and an edge is
-    removed if its flag is true. Additional flags at the end of ``cut`` are not used.
+    """Partition a tree by removing edges. ``cut`` begins with one flag for each edge of the tree in preorder.
+    An edge is removed if its flag is true. The remaining flags belong to edges outside the tree.
 
     Return four values: the component of the root, a list of the other components, the quotient tree, and the
-    flags that are not used.
+    remaining flags.
     """
     attached: list[Tree] = []
     components: list[Tree] = []
@@ -151,8 +149,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """A map from ordered forests to their images if ``field`` replaces the vector field f. An image is a
-    linear combination of ordered forests. Forests with more vertices than a given number are omitted."""
+    """The images of ordered forests if ``field`` replaces the vector field f. An image is a linear
+    combination of ordered forests. Forests with more than a given number of vertices are omitted."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -3,9 +3,9 @@
 The registers are y and k. At the start of a step, k is zero. Stage i replaces k by A_i k + h f(y), and then
 replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
 letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
-along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, only
-words with two properties are needed. Such a word has equal numbers of letters K and D, and no suffix contains
-more letters K than letters D.
+along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, a word
+is needed only if it has two properties: The numbers of letters K and D are equal, and no suffix contains more
+letters K than letters D.
 
 A linear combination of words is a differential operator. The operator is zero on all groups if and only if it
 is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence a 2N scheme has the same order
@@ -13,7 +13,7 @@ on groups and on vector spaces.
 
 The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series
 of a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
-The linear combination is the same for all 2N schemes. This module computes it.
+This module computes the linear combination, which is the same for all 2N schemes.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. If the
-factor is None, the vector field is given by the register k. If the factor is a tuple P, then P is itself a
-product of derivatives. In this case, the vector field is P f, where f is the vector field of the problem."""
+"""A product of derivatives, from left to right. Each factor is the derivative along a vector field. The
+factor None denotes the derivative along y' = k y, where k is the register. A factor that is a product P of
+derivatives denotes the derivative along P f, where f is the vector field of the problem."""
 
 Combination = dict[Operator, int]
 
@@ -80,9 +80,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Return an ordered forest as a forest of rooted trees, in which the order of branches and of trees does
-    not matter. The trees of the result are canonical, and the tree with the greatest level sequence comes
-    first.
+    r"""Sort the branches and the trees of an ordered forest. The result represents a forest of rooted trees.
+    Its trees are canonical and sorted by level sequence, the greatest first.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -115,9 +114,9 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return a selection of the rooted trees with ``order`` vertices. For two-register (2N) schemes, the
-    elementary weights of all trees with ``order`` vertices depend only on two sets of weights. These are the
-    weights of the selected trees and of all trees with fewer vertices.
+    """Return a selection of the rooted trees with ``order`` vertices. In two-register (2N) schemes, the
+    elementary weights of the selected trees and of all smaller trees determine the elementary weights of all
+    trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -177,9 +176,8 @@ def _symmetry(forest: Forest) -> int:
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the differential operator that a word in K and D denotes. It is a linear combination of products
-    of derivatives. ``ordered`` is true for the operator on a group, and false for the operator on a vector
-    space."""
+    """Return the differential operator that a word in K and D denotes, as a linear combination of products of
+    derivatives. ``ordered`` is true on a group and false on a vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -192,8 +190,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D to a product of derivatives by the product rule. The letter D denotes the derivative
-    along the register k."""
+    """Apply the operator D (drift) to a product of derivatives by the product rule. D is the derivative along
+    y' = k y, where k is the register."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -201,8 +199,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives by the product rule. In each term of the result, one
-    derivative along the register k is replaced by the derivative along the vector field f."""
+    """Apply the operator K (kick) to a product of derivatives by the product rule. In each term of the
+    result, the vector field f replaces the register k in one derivative."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:
@@ -212,9 +210,8 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
-    """Return a sum over the factors of a product of derivatives. In each summand, the function ``act`` is
-    applied to one factor. Factors equal to None have no summand. ``act`` is :func:`_drift` or
-    :func:`_kick`."""
+    """Return a sum over the factors of a product of derivatives, without the factors that are None. In each
+    summand, ``act``, which is :func:`_drift` or :func:`_kick`, is applied to one factor."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

@@ -1,2 +1,2 @@
-"""Search for methods: numerical search, proof of the solutions, closed forms of coefficients, and proofs that
-no method exists."""
+"""Search for methods: numerical search for coefficients, proofs of the order conditions, closed forms of
+coefficients, and proofs that no method exists."""

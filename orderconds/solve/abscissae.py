@@ -11,16 +11,15 @@ m_i is defined by
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
 Let each of x and z be one of the abscissae c, chat and m. A method of order three satisfies sum_i b_i x_i z_i
-= 1/3. Expand the square in sum_i b_i (c_i - m_i)^2. The value of this sum is 1/3 - 2/3 + 1/3 = 0. The sum
-with chat instead of c is also zero. If the weights are positive, all terms of these sums are zero, so the
-three abscissae are equal.
+= 1/3. Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. The sum of b_i (chat_i - m_i)^2 is
+zero by the same argument. If the weights are positive, all terms are zero, and the three abscissae are equal.
 
-Let a_ij be the coefficient of stage j in stage i. If the three abscissae are equal, the matrix of these
+Let a_ij be the coefficient of stage j in stage i. If the three abscissae are equal, the matrix A of these
 coefficients satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j)
 for each column j. Equations of this form are called a transportation problem.
 
-The rows and the columns are the nodes of a graph. Each entry a_ij is an edge that joins row i and column j. A
-spanning tree of this graph contains some of the entries. The equations are solved for these entries.
+Each entry a_ij is an edge between row i and column j in a graph. The nodes of this graph are the rows and
+columns of A. The equations are solved for the entries that form a spanning tree of the graph.
 """
 
 from __future__ import annotations
@@ -79,9 +78,8 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     contain the abscissae, the weights and the remaining entries of A.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. All
-    other entries of A are free. Each free entry a_ij is an edge of a graph and joins row i and column j. If
-    this graph does not connect all rows and columns, the function raises
-    :class:`~orderconds.errors.InputError`.
+    other entries of A are free. Each free entry a_ij is an edge between row i and column j in a graph. Raises
+    :class:`~orderconds.errors.InputError` if this graph is not connected.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -116,7 +114,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the graph in which each free entry a_ij of A joins row i and column j is not connected",
+            "the free entries a_ij of A do not connect all rows and columns",
             where=WHERE,
             expected="more free entries",
         )
@@ -134,7 +132,7 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "the graph in which each free entry a_ij of A joins row i and column j contains a cycle",
+        "as edges between row i and column j, the free entries a_ij of A form a cycle",
         where=WHERE,
         expected="a graph without cycles",
     )
@@ -145,19 +143,19 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for coefficients of a symmetric method with s stages and the abscissae m_i.
 
-    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The following exponentials are
-    called the own exponentials of stage i (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the
-    coefficients of stage j in the own exponentials of stage i.
+    Stage i begins with the first ``leave[i]`` exponentials of ``update``. The other exponentials of stage i
+    are called its own exponentials (:mod:`orderconds.solve.paths`). Let x_ij be the sum of the coefficients
+    of stage j in the own exponentials of stage i.
 
     - ``own`` contains the row (x_i1, ..., x_is) of each stage i in the first half of the stages.
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
-    The abscissa m_i determines the sum of row i of ``own``. Each column j in the first half of ``own``
-    satisfies the equation sum_i b_i (x_ij - x_ik) = C_j, where k = s + 1 - j. Here b_i are the weights, and
-    C_j does not contain entries of ``own``.
+    The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, the sum of
+    b_i (x_ij - x_ik) over the rows i of ``own`` is C_j, where k = s + 1 - j. Here b_i are the weights. The
+    formula for C_j does not contain entries of ``own``.
 
-    The function solves these equations for some entries of ``own``. It returns formulas for these entries and
-    for C_j. In the formulas, y_J is the sum of row J of ``update``.
+    The function solves these equations for the last entry of each row and the first half of the last row. It
+    returns formulas for these entries and for C_j. In the formulas, y_J is the sum of row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

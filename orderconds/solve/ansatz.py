@@ -2,11 +2,11 @@
 unknown coefficients.
 
 The file describes a method with a given number of stages. The coefficients of the method have names such as
-a21 and b1. The coefficients are evaluated in three kinds of arithmetic:
+a21 and b1. They are evaluated in three kinds of arithmetic:
 
-- Traces record the operations as a program for the numerical search.
-- Residues modulo primes give the ranks of conditions.
-- Balls (intervals) prove the order.
+- recording of the operations, which gives a program for the numerical search
+- integers modulo primes, which give the ranks of the conditions
+- interval arithmetic (balls), which proves the order
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the name of the theorem that makes some order conditions unnecessary in the proof
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: if True, a Runge-Kutta method replaces the commutator-free method in the order conditions.
-      These two methods are equal on abelian groups.
+    - ``abelian``: if True, the order conditions are evaluated for the Runge-Kutta method to which the
+      commutator-free method reduces on abelian groups
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
@@ -61,8 +61,8 @@ class Ansatz:
         return "\n".join([*self.body, *head, *table, *self.tail, *foot]) + "\n"
 
     def symbolic(self) -> SymbolicCoefficients:
-        """Return the coefficients of the file as expressions in unknowns. Each free coefficient is an
-        unknown. Raises InputError if no coefficient is free."""
+        """Return the coefficients of the method as expressions in the free coefficients. Raises InputError if
+        no coefficient is free."""
         places = {name: f"0.{123456789 + 7919 * place}~" for place, name in enumerate(self.free)}
         foot = ["", "[proof]", f'conditions = "{self.family.partition("(")[0]}"', "order = 1"]
         proof = Tableau.loads(self.text(places, foot=foot if self.free else ()), self.name).proof
