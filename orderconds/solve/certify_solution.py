@@ -1,10 +1,10 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the equations do not determine are rounded to short decimals. Newton's method computes all
-other coefficients to high precision. Lattice reduction tries to recognise the coefficients as elements of one
-number field. If the coefficients are recognised, the file contains closed forms, and the order is checked
-exactly. If the coefficients are not recognised, the file contains rounded decimals. In this case, interval
-arithmetic proves that the order conditions have a solution near the decimals.
+Coefficients that the order conditions do not determine are rounded to short decimals. Newton's method
+computes all other coefficients to high precision. Lattice reduction tries to find closed forms of these
+coefficients in one number field. With closed forms, the order is checked exactly. If there are no closed
+forms or the check fails, the file contains rounded decimals. In this case, interval arithmetic proves that
+the order conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -47,21 +47,20 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Rounding units, tried in this order. Coefficients that the equations do not determine are rounded to
-multiples of a unit. A unit is used if this rounding leads to a solution with two properties. The solution
-satisfies the bound :data:`WORSE`, and no singular value of its Jacobian is near zero.
+"""Rounding units, tried in this order. Coefficients that the order conditions do not determine are rounded to
+multiples of a unit. The order conditions are then solved for all other coefficients. The solution must
+satisfy the bound :data:`WORSE`, and no singular value of the Jacobian may be near zero.
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""These rounding units are used if the principal error was minimised. Finer units are unnecessary, because
-rounding hardly changes the error near a minimum."""
+"""Rounding units for a solution with minimised principal error. Finer units are unnecessary, because small
+changes of the coefficients hardly change the error near a minimum."""
 
 DIGITS = 50
-"""The number of decimal places of a rounded coefficient in the tableau file."""
+"""A rounded coefficient in the tableau file has at least this number of decimal places."""
 
 BITS = 1400
-"""The working precision of Newton's method in bits. Lattice reduction needs this high precision to recognise
-numbers."""
+"""The working precision of Newton's method in bits. Lattice reduction needs numbers of high precision."""
 
 WORSE = 1.5
 """Rounding must not increase the largest coefficient or the principal error by more than this factor."""
@@ -157,8 +156,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
     """Return a tuple of one or two numbers. The first number is the largest absolute value of the
-    coefficients of the method. If the order is at most :data:`CHEAP`, the second number is the principal
-    error."""
+    coefficients of the method. If the required order is at most :data:`CHEAP`, the second number is the
+    principal error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -245,8 +244,8 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Find the square roots in the ansatz whose radicands are rational numbers. Return a map from the text of
-    each square root to its value."""
+    """Return a map from texts to values. The map contains all square roots of rational numbers that occur in
+    the ansatz."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -324,8 +323,8 @@ def _signed(x: arb, places: int) -> str:
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the solution with a tableau file that lists the proved orders and properties. Raises NotProved
-    if the required order is not proved."""
+    """Add the proved orders and properties to the tableau, and return the solution. Raises NotProved if the
+    required order is not proved."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []

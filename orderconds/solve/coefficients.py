@@ -1,5 +1,5 @@
-"""Elimination of linear constraints from the coefficients of an ansatz, and the texts of the coefficients
-in a tableau file."""
+"""Elimination of coefficients of an ansatz by linear constraints, and the texts of the coefficients in a
+tableau file."""
 
 from __future__ import annotations
 
@@ -63,8 +63,8 @@ class Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return a map from names to formulas. It contains the formulas of the coefficients in ``names`` that
-        depend on other coefficients, and all formulas in ``extra``."""
+        """Return a map from names to formulas. The map contains the coefficients in ``names`` that depend on
+        other coefficients, and all names in ``extra``."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)

@@ -1,16 +1,16 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The conditions are written as polynomials that must be zero. A Groebner basis is computed for some of these
-polynomials, which together contain at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no
+The conditions are written as polynomials that must be zero. A Groebner basis is computed for a subset of
+these polynomials. The subset contains at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no
 real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
 Sturm's theorem counts the real roots of this polynomial. If there is no real root, no real method satisfies
 the conditions.
 
-The formulas of some families divide by the weights b_i. In these families, no weight is zero. The root zero
-of a polynomial in b_i is therefore ignored.
+The formulas of some families divide by the weights b_i. In these families, no weight is zero. Zero is
+therefore not counted as a root of a polynomial in b_i.
 
-The proof expresses 1, or the polynomial in one coefficient, as a combination of the conditions. The
-combination is verified by multiplication of polynomials.
+A proof multiplies the polynomials of the conditions by further polynomials. The sum of the products is 1 or
+the polynomial in one coefficient. This sum is verified exactly.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""An order condition and a polynomial. The polynomial is the numerator of the difference between the
-left-hand side and the right-hand side."""
+"""An order condition and the numerator of its residual. The residual is the left-hand side minus the
+right-hand side."""
 
 MAX_VARIABLES = 3
 """Elimination uses only conditions that contain at most MAX_VARIABLES coefficients."""
@@ -44,7 +44,7 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 These limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
-"""Multipliers in a proof (:class:`Infeasible`) have at most the degree MAX_DEGREE - 1."""
+"""The degree of a multiplier in a proof (:class:`Infeasible`) is below MAX_DEGREE."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ class Infeasible:
     - If ``weight`` is the name of a weight, zero is the only real solution of the equation. The formulas of
       the family divide by this weight. Therefore, the weight cannot be zero.
 
-    Entry k of ``equations`` is the left-hand side of condition k minus the right-hand side. A monomial factor
-    removes all denominators.
+    Entry k of ``equations`` is the residual of condition k: the left-hand side minus the right-hand side. The
+    residual is multiplied by a monomial that removes the denominators.
     """
 
     variables: tuple[str, ...]
@@ -108,9 +108,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods, it suffices to consider nonzero weights. A stage with weight zero can be
-    # replaced by a copy of a stage with nonzero weight. Each of the two equal stages receives half of this
-    # weight.
+    # The formulas of symplectic methods divide by the weights. No method is lost: a stage with weight zero
+    # can be replaced by a copy of another stage. The two copies share the weight of this stage equally.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -141,8 +140,8 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozenset[str]:
     """Return the names of the free coefficients that cannot be zero.
 
-    These are the weights by which the formulas of the family divide. In a commutator-free method, a weight
-    may be the sum of several free coefficients. Each of these coefficients can be zero.
+    These are the weights by which the formulas of the family divide. If a weight is the sum of several free
+    coefficients, its summands are not returned, because a summand can be zero.
     """
     if not problem.family.needs_nonzero_weights:
         return frozenset()
@@ -155,7 +154,7 @@ def _nonzero(problem: Problem, ring: LaurentPolynomials | Polynomials) -> frozen
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
-    """Return the numerator of ``x`` as a polynomial. The numerator is zero wherever ``x`` is zero."""
+    """Return the numerator of ``x`` as a polynomial."""
     numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 
@@ -183,9 +182,9 @@ def _consequence(
     """Return a polynomial in the ideal that ``members`` generate, and the name of a weight. Return None if no
     suitable polynomial is found.
 
-    A polynomial without real roots is suitable. It is returned with an empty name. In some families, a weight
-    b_i cannot be zero. In these families, a polynomial in b_i is also suitable if zero is the only real root.
-    This polynomial is returned with the name of b_i.
+    A polynomial without real roots is suitable. In this case, the returned name is empty. The set ``nonzero``
+    contains the weights that cannot be zero. A polynomial in one of these weights is also suitable if zero is
+    its only real root. In this case, the name of the weight is returned.
     """
     import sympy
 
@@ -266,9 +265,8 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return a multiplier for each polynomial in ``members``. The sum of all products of a member and its
-    multiplier is ``consequence``. The multipliers are polynomials of at most degree ``degree``. Return None
-    if these multipliers do not exist."""
+    """Return polynomials m_k of degree at most ``degree`` with sum_k m_k f_k = ``consequence``. The f_k are
+    the polynomials in ``members``. Return None if there are no such polynomials m_k."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

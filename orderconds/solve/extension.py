@@ -13,11 +13,11 @@ For each p, these equations are a linear system for the coefficients of theta^p.
 used.
 
 If the first stage is the initial value, another solution is used for p = 1: beta_{1,1} = 1, and
-beta_{1,i} = 0 for i > 1. With this solution, the derivative at theta = 0 is exact.
+beta_{1,i} = 0 for i > 1. Then the derivative of the extension at theta = 0 is exact.
 
-Finally, the coefficients of the highest power of theta are changed such that b_i(1) = b_i. Suppose that
-q > 1, the first stage is the initial value, and the last stage is the final value. Then the coefficients of
-the two highest powers are changed, and the derivative at theta = 1 is exact, too.
+Finally, the coefficients of the highest power of theta are changed to obtain b_i(1) = b_i. There is one
+special case: q > 1, the first stage is the initial value, and the last stage is the final value. In this
+case, the coefficients of the two highest powers are changed, and the derivative at theta = 1 is exact, too.
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return an extension of order q, or None if there is no such extension. Row p of the result
-    contains the coefficients of theta^p in the weights b_i(theta), for p = 1, 2, ...."""
+    """Return the coefficients of an extension of order q, or None if there is no such extension. The p-th row
+    contains the coefficients of theta^p in the weights b_i(theta)."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
     conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]

@@ -1,8 +1,9 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
-The damping parameter is the norm of the residual, multiplied by a factor. The factor is reduced after each
-successful step. A damping parameter proportional to this norm gives quadratic convergence near a solution
-under a local error bound, even if the solution is not isolated (Fan and Yuan 2005).
+The damping parameter is a factor times the norm of the residual. The factor is reduced after a successful
+step and increased after a failed step. This damping gives quadratic convergence near a solution, even if the
+solution is not isolated. The assumption is a local error bound: the distance to the set of solutions is at
+most a constant times the norm of the residual (Fan and Yuan 2005).
 """
 
 from __future__ import annotations
@@ -19,8 +20,7 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 (k, m, n)."""
 
 SOLVED = 1e-13
-"""A system counts as solved if the norm of the residual is at most this number. The number is at the level of
-rounding errors."""
+"""Iterations stop if the norm of the residual is at most SOLVED, which is at the level of rounding errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
@@ -77,8 +77,8 @@ def _solved(normal: Floats, right: Floats) -> Floats:
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of one Jacobian. The rows are first scaled to length one, because residuals
-    may have different scales.
+    """Return the numerical rank of a Jacobian: the number of singular values above ``tolerance``. First, the
+    rows are scaled to length one, because residuals may have different scales.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1

@@ -17,8 +17,8 @@ string."""
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0. Error messages quote ``text``, which is the user's equation or the reason
-    for the constraint."""
+    """The equation ``form`` = 0. Error messages quote ``text``: the equation in the option ``--fix``, or the
+    reason for the constraint."""
 
     text: str
     form: Affine
@@ -164,7 +164,7 @@ def equal(why: str, *terms: tuple[int, str]) -> Constraint:
 
 
 def sum_to_one(names: Sequence[str]) -> Constraint:
-    """Return the constraint that the weights sum to 1.
+    """Return the constraint that the weights ``names`` sum to 1.
 
     >>> sum_to_one(["b1"]).form
     {'b1': Fraction(1, 1), '': Fraction(-1, 1)}
@@ -188,8 +188,8 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient. One or two indices below 10 are not separated, as in a21. Otherwise,
-    the indices are separated by ``_``, as in a10_1.
+    """Return the name of a coefficient, such as a21. If there are more than two indices, or if an index is
+    above 9, the indices are separated by ``_``, as in a10_1.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')

@@ -2,8 +2,8 @@
 and B_i.
 
 By a theorem, a 2N scheme has the same order on a Lie group as on a vector space
-(:mod:`orderconds.proof.equations`). The search therefore solves the order conditions of Runge-Kutta methods.
-Up to order 6, this reduces the number of conditions from 113 to 37.
+(:mod:`orderconds.proof.equations`). A search therefore solves the order conditions of Runge-Kutta methods. Up
+to order 6, these are 37 conditions instead of 113.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ CENTRE = {"A": -0.8, "B": 0.25}
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of low-storage schemes, which store two registers K and Y. Let F be the vector field,
-    and let h be the step size. Stage i replaces K by A_i K + F(Y). After that, stage i replaces Y by
-    exp(h B_i K) Y. The coefficient A_1 is zero.
+    """Return the ansatz of low-storage schemes, which store two registers K and Y. The differential equation
+    is Y' = F(Y) Y, and h is the step size. Stage i replaces K by A_i K + F(Y). After that, stage i replaces Y
+    by exp(h B_i K) Y. The coefficient A_1 is zero.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
     ('B1', 'B2', 'A2')
@@ -69,7 +69,7 @@ def solved_family(family: Family) -> Family:
     A 2N scheme has the same order in the returned family and in ``family``
     (:mod:`orderconds.proof.equations`).
 
-    Raises :class:`~orderconds.errors.InputError` if no theorem gives the order of 2N schemes in ``family``.
+    Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.
 
     >>> solved_family(families.get("cf")).label()
     'rk'

@@ -80,11 +80,10 @@ def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
     """Return formulas for entries of A that make the method symplectic. The method is symplectic if
-    b_i a_ij + b_j a_ji = b_i b_j for all i and j. For i < j, this condition is solved for a_ij or a_ji.
+    b_i a_ij + b_j a_ji = b_i b_j for all i and j. For i < j, this equation is solved for a_ij or a_ji.
 
-    A symmetric method needs fewer formulas. Let s be the number of stages. The condition for (i, j) is
-    equivalent to the condition for the mirrored indices (s + 1 - j, s + 1 - i). Only one of the two
-    conditions is solved. If the mirrored indices are (i, j) itself, the symmetry implies the condition.
+    For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
+    equivalent. Only one of the two equations is solved. If i + j = s + 1, the symmetry implies the equation.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -99,9 +98,9 @@ def _symplectic(
                 continue
             if chosen is None:
                 raise InputError(
-                    f"the constraints fix both {A[i][j]} and {A[j][i]}",
+                    f"the constraints determine both {A[i][j]} and {A[j][i]}",
                     where="constraints",
-                    expected="constraints that fix at most one of the two entries; "
+                    expected="constraints that determine at most one of the two entries; "
                     "symplecticity determines the other entry",
                 )
             row, column = chosen
@@ -186,15 +185,15 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of the stages. The formulas make the three
-    abscissae of each stage equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of the stages. The formulas make the abscissae c_i, chat_i and m_i
+    of stage i equal (:mod:`orderconds.solve.abscissae`)."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no constraint that fixes coefficients of stages",
+                expected="no constraint on coefficients of stages",
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
@@ -220,7 +219,7 @@ def _gauss(s: int) -> dict[str, str]:
 
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
-    """Return constraints on sums of coefficients. Each sum is equal to a coefficient of a Gauss method.
+    """Return constraints that make sums of coefficients equal to the coefficients of the Gauss method.
 
     Let a_ij and b_j be the coefficients of the Gauss method with the same number of stages. In the
     exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the update,
@@ -239,8 +238,8 @@ def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the coefficients of a symmetric method. The formulas make the three
-    abscissae of each stage equal (:mod:`orderconds.solve.abscissae`)."""
+    """Return formulas for the coefficients of a symmetric method. The formulas make the abscissae c_i, chat_i
+    and m_i of stage i equal (:mod:`orderconds.solve.abscissae`)."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -255,7 +254,7 @@ def _symmetric_abscissae(
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no constraint that fixes coefficients of stages",
+                expected="no constraint on coefficients of stages",
             )
     middle: list[str] = []
     extra = commutator_free_times(written, b)
@@ -298,8 +297,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination solves each constraint for the coefficient that is last in ``order``. The last element of
-    # ``order`` is the middle step size. The constraint ``total`` therefore determines the middle step size.
+    # Elimination solves a constraint for the coefficient of the constraint that is last in ``order``. The
+    # middle step size is last in ``order``, so the constraint ``total`` determines the middle step size.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -317,8 +316,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splitting methods. A method composes flows of two vector fields T and V. The first
-    and the last flow belong to T.
+    """Return the ansatz of splitting methods. These methods compose flows of two vector fields T and V. The
+    first flow and the last flow are flows of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -412,8 +411,8 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Maps the name of a tableau format to the parametrisations of the format. A search for methods of a family
-uses the format :attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisations of the format. The attribute
+:attr:`orderconds.families.Family.unknowns` of a family is the name of the format that a search uses."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of low-storage schemes (:mod:`orderconds.solve.low_storage`)."""
