@@ -11,7 +11,7 @@ SHORT = Balls(64)
 """Interval arithmetic with 64 bits. Interval coefficients are rounded to this precision before printing."""
 
 DIGITS = 24
-"""The largest length of a decimal that is printed unchanged. A longer decimal is shortened."""
+"""The largest number of characters of a decimal that is printed unchanged. A longer decimal is shortened."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:
@@ -19,8 +19,9 @@ def butcher_text(tableau: Tableau) -> list[str]:
     and have about twenty digits. Embedded weights are not printed.
 
     For a commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
-    spaces. For a composition method, the basic method is the implicit midpoint rule. For a composition of
-    a method and its adjoint, the method is explicit Euler, and the adjoint is implicit Euler.
+    spaces. A composition method is applied to the implicit midpoint rule. A composition of a method and its
+    adjoint is applied to explicit and implicit Euler.
+
     Raises :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
 
     >>> from orderconds.tableau import find

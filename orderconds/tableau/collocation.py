@@ -88,12 +88,12 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature without one node. The index ``left_out`` of this node is
-        counted from 0. The weight of this node in the result is zero.
+        """Return the weights of the quadrature that omits one node. The index ``left_out`` of this node is
+        counted from 0. The omitted node has the weight zero.
 
-        The weights of the full quadrature are changed by a multiple of the vector (e_1, ..., e_s). Here e_j
-        is the leading coefficient of the Lagrange polynomial of node j. This change preserves the integral of
-        every polynomial of degree below s - 1.
+        Let e_j be the leading coefficient of the Lagrange polynomial of node j. If a polynomial p has a
+        degree below s - 1, the sum of all e_j p(c_j) is zero. A multiple of (e_1, ..., e_s) is subtracted
+        from the weights b. The new weights integrate polynomials of degree below s - 1 exactly.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -114,8 +114,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return a matrix A that satisfies the assumption C(s - 1). All entries of column k are ``value``.
 
-        Each row of the matrix :meth:`rows` is changed by a multiple of the vector (e_1, ..., e_s). Here e_j
-        is the leading coefficient of the Lagrange polynomial of node j.
+        Multiples of the vector (e_1, ..., e_s) are added to the rows of the matrix :meth:`rows`. The vector
+        is defined in :meth:`without`. The changed rows satisfy C(s - 1).
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -184,7 +184,7 @@ class Kind:
 
     @property
     def least(self) -> int:
-        """The least number of stages."""
+        """The least number of stages of a method of this kind."""
         return 2 if self.left and self.right else 1
 
     def order(self, s: int) -> int:
@@ -259,8 +259,9 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     """Return the roots of a polynomial that has only real roots. Where possible, the roots are expressed by
     square roots.
 
-    Otherwise, the roots of an irreducible factor get the names c1, c2, ... in ascending order. The largest
-    root of the factor gets no name. The sum of all roots, a coefficient of the factor, determines this root.
+    If square roots do not suffice, the roots of an irreducible polynomial get the names c1, c2, ... in
+    ascending order. The largest root gets no name. It follows from the other roots and the sum of all roots,
+    which is known from the coefficients.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

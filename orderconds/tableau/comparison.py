@@ -12,7 +12,7 @@ from orderconds.ring.protocol import Element
 from orderconds.tableau.record import Tableau
 
 COMPARED = 160
-"""The precision of the comparison, in bits."""
+"""The precision, in bits, of the intervals that are compared."""
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
@@ -20,8 +20,8 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     too.
 
     Two balls (intervals) count as equal if they intersect and have similar widths. The larger width is at
-    most 4 times the smaller width. The balls need not be identical, because a file may contain a rounded
-    centre and a rounded radius.
+    most 4 times the smaller width. Identical balls are not required, because a file may contain a
+    rounded centre and a rounded radius.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))

@@ -13,7 +13,7 @@ from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
 """Claims in Python. A mapping contains claimed orders and properties, as in ``{"rk": 4, "explicit": True}``.
-For a tableau of the format ``rk``, the integer 4 means the same as ``{"rk": 4}``. None means no claims."""
+For a tableau of the family ``rk``, the integer 4 means the same as ``{"rk": 4}``. None means no claims."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
@@ -134,8 +134,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return ``data`` with the name, the source and the claims added. An empty source adds no key. The value
-    None as claims adds no key, either.
+    """Return ``data`` with the name, the source and the claims added. If the
+    source is empty or the claims are None, the result has no such key.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}

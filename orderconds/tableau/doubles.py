@@ -20,8 +20,8 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 
 UNITS = 8
-"""A factor in the radius of a ball. A double x denotes a ball (an interval) around x. By default, the radius
-of the ball is ``UNITS * 2^-53 * max(1, |x|)``."""
+"""The default factor in the radius of a ball. A double x denotes a ball (an interval) around x with the
+radius ``UNITS * 2^-53 * max(1, |x|)``."""
 
 ROUNDING = Fraction(1, 2**53)
 """The largest relative error of rounding a number to a double."""
@@ -35,7 +35,7 @@ PRINTED = 16
 printed double."""
 
 LARGE = 64
-"""A limit for doubles that count as exact numbers. Neither the numerator nor the denominator has more bits.
+"""The largest number of bits of the numerator and of the denominator of a double that counts as exact.
 Without this limit, the exact decimal of a double could have hundreds of digits."""
 
 LONGEST = 1200

@@ -41,7 +41,7 @@ WIDE = 75.0
 printed as a decimal."""
 
 MOST = 34
-"""The largest number of lines that fit on a page."""
+"""The largest number of lines of formulas that fit on a page."""
 
 BLANK = r"\,"
 """A narrow space between a factor and a vector field."""
@@ -149,8 +149,8 @@ def _equations(tableau: Tableau) -> Iterator[Equation]:
 
 
 def _matrix(a: str, b: str, A: Sequence[Row], weights: Row, tableau: Tableau) -> Iterator[Equation]:
-    """Yield the rows of a Runge-Kutta matrix, then the weights. Zeros at the end of a row of the matrix are
-    omitted."""
+    """Yield one equation for each nonzero row of the matrix A, then one equation for the weights. The symbols
+    of A and of the weights are ``a`` and ``b``. Zeros at the end of a row of A are omitted."""
     for i, row in enumerate(A, start=1):
         last = max((j for j, x in enumerate(row) if tableau.ring.is_zero(x) is not True), default=-1)
         if last >= 0:

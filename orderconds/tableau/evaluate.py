@@ -1,11 +1,15 @@
 """Evaluation of the coefficients of a tableau file in one ring: Q, a number field, or balls (intervals).
 
-The numbers in the file determine the ring. If all coefficients are rational, the ring is Q. If coefficients
-contain radicals or named roots, these roots generate a number field, which is the ring. If the file contains
-a rounded decimal (``~``) or a double (``d``), all coefficients become balls. If the degree of the number
-field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`, all coefficients become balls, too.
+The first of these rules that applies determines the ring:
 
-Equal expressions in one file denote the same number. Their common value is one object.
+- If the file contains a rounded decimal (``~``) or a double (``d``), all coefficients are balls.
+- If all coefficients are rational, the ring is Q.
+- The radicals and named roots in the coefficients generate a number field. If the degree of this field is at
+  most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
+- If the degree is larger, all coefficients are balls.
+
+The value of equal expressions in one file is the same object. Two balls that are the same object denote equal
+numbers.
 """
 
 from __future__ import annotations
@@ -21,13 +25,13 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.grammar import MAX_DEPTH, Chain, Constant, Expression, Name, Power
 
 MAX_SIZE = 40_000
-"""The maximal size, in bits, of the integers in an intermediate value."""
+"""The maximal size (:meth:`Scalars.size`) of an intermediate value."""
 
 
 class NamedRoot(Struct, frozen=True):
     """A real root of a polynomial over Q. ``minpoly`` contains the coefficients of the polynomial, lowest
-    power first. The decimal ``near`` approximates the root. The error is at most one unit in the last
-    digit. If the polynomial has another root within this distance, the definition is an error."""
+    power first. The decimal ``near`` approximates the root. The distance from the root is at most one
+    unit in the last digit. The polynomial must not have another real root within this distance."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -37,8 +41,8 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """A ring in which expressions are evaluated: the ring of balls, or a number field. If an expression
-    contains a new root, this root is added to the number field."""
+    """A ring in which expressions are evaluated, such as the ring of balls or a number field. If an
+    expression contains a new root, a number field is extended by this root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return the rational number ``value`` if its uncertainty ``unit`` is zero. Otherwise, return the
@@ -50,10 +54,11 @@ class Scalars(Protocol):
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
         """Return the real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
-        ValueError if there is no such root or more than one."""
+        ValueError if there is no such root or more than one. ``name`` becomes the name of the root."""
 
     def size(self, x: Element) -> int:
-        """Return the number of bits of the largest integer in the representation of x."""
+        """Return the number of bits of the largest numerator or denominator in x. For a ball, return the
+        largest absolute value of its binary exponents."""
 
 
 def evaluate(
@@ -97,8 +102,9 @@ def evaluate(
 def evaluate_in(
     scalars: Scalars, expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> dict[str, Element]:
-    """Return the values of expressions in the ring ``scalars``. Raises :class:`TableauError` if an expression
-    has no value.
+    """Return the values of ``expressions`` in the ring ``scalars``. ``numbers`` contains the named numbers of
+    the file. Raises :class:`TableauError` if an expression has no value, for example after a division by
+    zero.
 
     >>> from orderconds.ring.balls import Balls
     >>> from orderconds.tableau.grammar import parse
@@ -110,8 +116,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values to elements of one field by the function ``lift``. Keys with a common value object
-    have a common object in the result, too."""
+    """Convert the values to elements of one field by the function ``lift``. If two keys have the same
+    object as value, the results are the same object, too."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
@@ -158,7 +164,7 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate all named numbers, so that an error in an unused number is reported, too."""
+        """Evaluate all named numbers, to report errors in numbers that no coefficient uses."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))

@@ -22,9 +22,9 @@ from orderconds.tableau.methods import Row
 
 @dataclass(frozen=True)
 class Extension:
-    """The weights of a continuous extension. The weight of stage i is a polynomial in theta. Row i contains
-    the coefficients of theta, theta^2, ... in this polynomial. All rows have the same length. ``order`` is
-    the order that the tableau file claims.
+    """The weights of a continuous extension. The weight of a stage is a polynomial in theta. ``rows``
+    contains one row for each stage: the coefficients of theta, theta^2, ... in the weight. All rows have the
+    same length. ``order`` is the order that the tableau file claims.
 
     >>> Extension(((1, -1), (0, 1)), 1).power(2)
     (-1, 1)
@@ -47,5 +47,5 @@ class Extension:
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return the scalar product of ``factors`` and each row."""
+        """For each stage, return the scalar product of its row and ``factors``."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

@@ -57,8 +57,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 class File(Struct, frozen=True):
     """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is an
-    object with the same values. The key ``family`` determines its class. The other attributes describe the
-    method."""
+    object with the same values as attributes. The key ``family`` determines the class of ``entry``. All other
+    attributes are computed from ``entry``."""
 
     data: Mapping[str, object]
     entry: Format
@@ -74,8 +74,8 @@ class File(Struct, frozen=True):
 
 
 def text_of(path: str | Path) -> str:
-    """Return the text of a tableau file. Raises TableauError if the file is too large or not encoded in
-    UTF-8.
+    """Return the text of a tableau file. Raises TableauError if the file cannot be read, is too large or
+    is not encoded in UTF-8.
 
     >>> from orderconds.tableau import find
     >>> text_of(find("kutta3")).splitlines()[0]
@@ -104,8 +104,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 def meant_as_tableau(path: str | Path) -> bool:
     """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. The result is also
-    True if the file cannot be read or is not valid TOML, so that the caller reports the error and does not
-    skip the file.
+    True if the file cannot be read or is not valid TOML. Such a file must not be skipped without an error
+    message.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -187,8 +187,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Convert the entries of a table one by one, so that an error message contains the name of the wrong
-    entry."""
+    """Convert the entries of a table one by one. Thus, an error message can name the wrong entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -318,7 +317,8 @@ def _decimal(text: str, where: str) -> Constant:
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     """Return the content of the table ``[proof]``, or None if the file has no such table. Raises TableauError
-    for an unknown name, for assumptions that do not fit the reduction, and if the file has no decimals."""
+    if the table contains an unknown name or assumptions that do not fit the reduction. Raises TableauError
+    for a table ``[proof]`` in a file without rounded decimals."""
     given = entry.proof
     if given is None:
         return None
