@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""If an expansion has more terms than this number by estimate, it is not computed. The computation of
+"""If the estimated number of terms exceeds this number, the expansion is refused. The computation of
 this number of terms needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
@@ -38,8 +38,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     false, all entries are variables.
 
     Raises :class:`~orderconds.errors.InputError` if there are too many terms (:data:`MAX_COMPUTED`,
-    :data:`MAX_TERMS`). The same error is raised if methods of the family with ``stages`` stages can have
-    different sets of coefficients.
+    :data:`MAX_TERMS`). The same error is raised if ``stages`` does not determine which coefficients a
+    method of the family has.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -65,10 +65,10 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
     """Return an estimate of the total number of terms of the expanded conditions.
 
-    In the expanded condition of a tree, each vertex has a stage index. For implicit methods, every index has
-    ``stages`` values. For explicit methods, the index decreases along each edge from the root. On
-    average, (stages - 1)/2 stages precede a stage. The estimate therefore assumes (stages - 1)/2 values of
-    each index except that of the root.
+    In the expanded condition of a tree, each vertex has a stage index. The index of the root has ``stages``
+    values. For implicit methods, the other indices have ``stages`` values, too. For explicit methods, the
+    index decreases along each edge from the root. On average, (stages - 1)/2 stages precede a stage. The
+    estimate uses this number for the other indices.
     """
     factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
     sizes = enumerate(derivation.counts)
@@ -90,9 +90,9 @@ def polynomials(
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
     """Return a polynomial ring, its variables, and the left-hand sides of the conditions as polynomials.
 
-    If formulas of the family divide by the weights b_i, the ring consists of Laurent polynomials, which can
-    have negative exponents. Raises :class:`~orderconds.errors.InputError` if methods of the family with
-    ``stages`` stages can have different sets of coefficients.
+    If order conditions of the family divide by the weights b_i, the ring consists of Laurent polynomials.
+    Raises :class:`~orderconds.errors.InputError` if ``stages`` does not determine which coefficients a method
+    of the family has.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

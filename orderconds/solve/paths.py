@@ -1,10 +1,10 @@
-"""Parametrisations of commutator-free methods by the coefficients of the exponentials. One parametrisation
-describes all methods. The other parametrisation describes symmetric methods.
+"""Parametrisations of all commutator-free methods, and of the symmetric commutator-free methods. The
+parameters are the coefficients of the exponentials.
 
-A method has s stages. The update is exp(Y_m) ... exp(Y_1) y0, where y0 is the initial value. Each exponent is
-a linear combination of the vector fields at the stages. If the coefficients of stages j and s + 1 - j are
-exchanged for all j, the exponent X becomes bar X. Let Q_i be the value of stage i. The method is symmetric if
-the following two conditions are satisfied:
+Let Q_1, ..., Q_s be the values of the stages, and let y0 be the initial value. The update is
+exp(Y_m) ... exp(Y_1) y0. Each exponent X is a linear combination of the vector fields at Q_1, ..., Q_s. Let
+bar X be the exponent X with the coefficients of stages j and s + 1 - j exchanged, for all j. A method is
+symmetric if it satisfies the following two conditions:
 
 - Y_(m+1-J) = bar Y_J for J = 1, ..., m.
 - For each stage i, there exist a number k from 0 to m and exponents X_1, ..., X_r such that
@@ -27,8 +27,8 @@ from orderconds.solve.spec import Spec
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 """A parametrised method: the stages, the update, the names of all coefficients, and the constraints. The
-update is a list of exponentials, and each stage is a list of exponentials. An exponential is a list of
-coefficient names."""
+update and each stage are lists of exponentials. The exponential that acts first is the first in the list. An
+exponential is a list of the names of its coefficients."""
 
 
 def full_paths(spec: Spec) -> Paths:
@@ -60,8 +60,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return the parametrisation of symmetric methods. The first exponentials of a stage can be taken from
-    the update. The other exponentials of the stage have new coefficients.
+    """Return the parametrisation of symmetric methods. A stage begins with zero or more of the
+    first exponentials of the update. The other exponentials of the stage have new coefficients.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -81,9 +81,9 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # The update has m exponentials. The first ``whole`` of them are also the first exponentials of
-        # stage i. For i <= s/2, ``whole`` is (i - 1/2) m/s, rounded up. In stage s + 1 - i, ``whole`` is
-        # m minus the value for stage i. In the middle stage, ``whole`` is m/2, rounded down.
+        # Stage i begins with the first ``whole`` of the m exponentials of the update. For i <= s/2,
+        # ``whole`` is (i - 1/2) m/s, rounded up. For stages i and s + 1 - i, the sum of the two numbers
+        # ``whole`` is m. In the middle stage, ``whole`` is m/2, rounded down.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -28,8 +28,7 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Create problems with :func:`find_problem`. This function caches the
-    problems and their compiled programs.
+    """The equations of one search. Create problems with :func:`find_problem`, which caches them.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -43,7 +42,7 @@ class Problem:
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the ansatz of the search: a tableau file with unknowns."""
+        """Return the text of a tableau file in which some coefficients are unknown."""
         return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
@@ -53,17 +52,20 @@ class Problem:
 
     @cached_property
     def measured(self) -> Family:
-        """Return the family in which the principal error is computed. In a search for low-storage schemes,
-        this family can differ from :attr:`family`."""
+        """Return the family in which the principal error is computed.
+
+        In a search for low-storage schemes, this family can differ from :attr:`family`. For example, the
+        search in ``cf`` solves the order conditions of ``rk``, but computes the principal error in ``cf``.
+        """
         return families.get(self.ansatz.measured or self.ansatz.family)
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return order conditions that are sufficient for the required order.
 
-        A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
-        Theorem II.3.2). If p is even, a symmetric method of order at least p - 1 therefore has order at least
-        p. In a search for symmetric methods of even order p, the conditions of order p are omitted.
+        In a search for symmetric methods of even order p, the conditions of order p are omitted. These
+        conditions follow from the conditions of lower order, because symmetric methods have even order
+        (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -75,8 +77,7 @@ class Problem:
         return Tape(self.trace(), len(self.ansatz.free))
 
     def trace(self) -> list[Trace]:
-        """Return the residuals of the conditions as traces. A trace records the operations that compute a
-        value."""
+        """Return the residuals of the conditions as traces, which record the arithmetic operations."""
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
@@ -89,9 +90,9 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method whose order conditions are evaluated. If ``ansatz.abelian`` is True, a
-        commutator-free method is replaced by the Runge-Kutta tableau to which the method reduces on an
-        abelian group. All other methods are unchanged."""
+        """Return the method for which the order conditions are evaluated. If ``ansatz.abelian`` is True and
+        ``method`` is commutator-free, return the Runge-Kutta method that equals ``method`` on abelian groups.
+        In all other cases, return ``method``."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -109,8 +110,8 @@ class Problem:
     def weights(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
         """Return the weights b_i. ``values`` contains the free coefficients as elements of ``ring``.
 
-        The weights of a commutator-free method are those of the Runge-Kutta tableau to which the method
-        reduces on an abelian group. For compositions and splittings, the list is empty.
+        On abelian groups, a commutator-free method equals a Runge-Kutta method. For a commutator-free method,
+        return the weights of this Runge-Kutta method. For compositions and splittings, the list is empty.
         """
         return list(_weights(self.ansatz.method(values, ring), ring))
 
@@ -127,8 +128,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices of the outputs of the program :attr:`coefficients` that must be positive. The
-        name b in the option ``positive`` denotes all weights."""
+        """Return the positions of the coefficients that must be positive, among the outputs of the program
+        :attr:`coefficients`. In the option ``positive``, the name b denotes all weights."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -142,9 +143,11 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return two arrays. A row of the first array contains the amounts by which coefficients violate
-        their bounds at one point. The second array contains the derivatives of these amounts with respect to
-        the free coefficients."""
+        """Return the violations of the bounds on the coefficients, with one row for each point. Also return
+        the derivatives of the violations with respect to the free coefficients.
+
+        The options ``positive`` and ``size`` give the bounds. If a bound is satisfied, its violation is zero.
+        """
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -160,16 +163,15 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return two arrays. A row of the first array contains the residuals of the conditions at one point,
-        followed by the violations of the bounds (:meth:`bounds`). The second array contains the derivatives
-        of these numbers with respect to the free coefficients."""
+        """Return the residuals of the conditions, followed by the violations of the bounds (:meth:`bounds`),
+        with one row for each point. Also return the derivatives with respect to the free coefficients."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, the weights at the centre are equal and all other coefficients are zero."""
+        None, use a point with equal weights b_i. All other coefficients of this point are zero."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])
@@ -183,7 +185,6 @@ class Problem:
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
     """Return the equations of a search for methods of the given order in the family ``label``. ``structure``
     is the name of the parametrisation of the coefficients. The eight most recently used problems are cached.
-    If a problem is cached, the function returns the cached object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -56,7 +56,7 @@ class SearchResult:
 
     @classmethod
     def of(cls, request: Order, outcome: Outcome) -> SearchResult:
-        """Return the result of a search with the options ``request``."""
+        """Combine the options ``request`` of a search with its ``outcome``."""
         solution = outcome.solution
         return cls(
             tableau=None if solution is None else Tableau.loads(solution.text, request.name),
@@ -76,7 +76,7 @@ class SearchResult:
             return f"<found {self.tableau!r}, certificate {self.certificate}>"
         if self.impossible is not None:
             return f"<no method exists: {self.impossible.reason}>"
-        return f"<nothing found; least norm of residuals {self.best_residual:.3g}>"
+        return f"<nothing found; least residual norm {self.best_residual:.3g}>"
 
     def _repr_html_(self) -> str | None:
         from orderconds.tableau.butcher import tableau_html
@@ -117,7 +117,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs these trees.
+    refuse_too_many_trees(families.get(family), order - 1)  # All searches need trees up to this order.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

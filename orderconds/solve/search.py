@@ -1,9 +1,9 @@
 """The search for methods from many random starting points, in batches. The batches run in one process, in
 several processes, or on a cluster.
 
-The result of a batch depends only on the problem, the seed and the number of the batch. Batches are
-processed in the order of their numbers. The result of a search therefore depends neither on the number of
-processes nor on interruptions. Each worker process receives the options of the search and compiles the
+The result of a batch depends only on the problem, the seed and the number of the batch. The search uses
+the results in the order of the batch numbers. The result of a search therefore depends neither on the number
+of processes nor on interruptions. Each worker process receives the options of the search and compiles the
 equations from these options.
 """
 
@@ -40,12 +40,13 @@ batch starts at most this number of minimisations."""
 
 
 CHEAP = 4
-"""If the required order is at most this number, the principal error of every solution is computed."""
+"""If the required order is at most this number, the score of a solution is its principal error. For
+higher orders, the principal error is too expensive to compute it for every solution."""
 
 
 SINGULAR = 1e6
-"""This number is added to the score of a singular solution. At a singular solution, the gradients of the
-conditions are linearly dependent."""
+"""This number is added to the score of a singular solution, to rank it after the regular solutions. At a
+singular solution, the gradients of the conditions are linearly dependent."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,7 @@ class Search:
 
 
 BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
-"""A batch as JSON: its number, the least residual norm and the solutions. Floating-point numbers are
-hexadecimal texts."""
+"""The fields of a :class:`Batch` for a JSON file. Floating-point numbers are hexadecimal texts."""
 
 
 @dataclass(frozen=True)
@@ -76,10 +76,11 @@ class Batch:
     """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
     coefficients), in ascending order of the score.
 
-    If the search minimises the principal error, the score is the principal error. The same holds for a
-    required order of at most :data:`CHEAP`. In all other searches, the score is the largest absolute value of
-    a coefficient. :data:`SINGULAR` is added to the score of a singular solution. ``best`` is the least
-    residual norm of all starts of the batch.
+    If the search minimises the principal error, or if the required order is at most :data:`CHEAP`, the score
+    is the principal error. In all other searches, the score is the largest absolute value of a coefficient.
+    :data:`SINGULAR` is added to the score of a singular solution.
+
+    ``best`` is the least residual norm of all starts of the batch.
     """
 
     number: int
@@ -100,8 +101,8 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Search from the random starting points of batch ``number``. The returned batch contains at most
-    :data:`KEPT` solutions, namely those with the lowest scores. :class:`Batch` defines the score.
+    """Search from the random starting points of batch ``number``. The result contains the solutions with
+    the lowest scores, at most :data:`KEPT`. :class:`Batch` defines the score.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -115,8 +116,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # If the batch contains regular solutions, drop all singular solutions. If all solutions are singular,
-    # keep them and add SINGULAR to their scores: their order can sometimes be proved in exact arithmetic.
+    # Singular solutions are kept only if the batch has no regular solution. The order of a singular solution
+    # can sometimes be proved in exact arithmetic.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -128,7 +129,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a regular solution before the minimisation. If the required order is at most
+    """Return the score of a solution, without :data:`SINGULAR`. If the required order is at most
     :data:`CHEAP`, the score is the principal error. For higher orders, the score is the largest absolute
     value of a coefficient."""
     if problem.order <= CHEAP:
@@ -157,7 +158,7 @@ class Checkpoint:
             raise InputError(
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
-                expected="a checkpoint file that the user owns",
+                expected="a readable checkpoint file of the current user",
                 hint="delete this file, or choose another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):

@@ -19,8 +19,8 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default numbers of random starts for each parametrisation of the coefficients. A search that minimises
-the principal error uses MINIMISED. All other searches use PLAIN."""
+"""The default number of random starts is MINIMISED if the search minimises the principal error, and PLAIN in
+all other cases. A search with several parametrisations of the coefficients uses this number for each."""
 
 
 @dataclass
@@ -140,7 +140,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         least = min((s for b in seen for s, _ in b.solutions), default=None)
         shown = f", least score of a solution {least:.4g}" if least is not None else ""
         done = f"structure {structure}: {len(seen) * BATCH} of {count * BATCH} random starts completed"
-        report(f"{done}, least norm of residuals {outcome.best:.1e}{shown}")
+        report(f"{done}, least residual norm {outcome.best:.1e}{shown}")
         if order.minimised:
             continue
         outcome.solution, refused = _finished(problem, [batch], order, source, refused)
@@ -154,24 +154,23 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    # The checkpoint is needed only until the search with this parametrisation ends.
+    # The search with this parametrisation is complete.
     checkpoint.remove()
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return a solution with a proved order, and the message of the last failed proof.
+    """Return the first solution whose order can be proved, and the message of the last failed proof.
 
-    The function considers the eight solutions with the lowest scores, and returns the first solution whose
-    order can be proved. If all proofs fail, the returned solution is None. If no proof fails, the message is
-    the argument ``refused``.
+    The function tries the eight solutions with the lowest scores. If all proofs fail, the returned solution
+    is None. ``refused`` is the message of an earlier failed proof, and is returned if no proof fails.
     """
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # ZeroWeight means that a formula of the family divides by a weight that is zero.
+        # ZeroWeight: a formula of the family divides by a weight b_i that is zero at this solution.
         except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
     return None, refused

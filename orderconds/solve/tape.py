@@ -24,9 +24,12 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind that do not depend on each other. All results of the program are rows of one
-    array. ``left`` and ``right`` contain the row numbers of the first and the second operands. Rows ``start``
-    to ``stop`` - 1 contain the results of these operations."""
+    """A group of operations of one kind that do not depend on each other.
+
+    One array contains the results of all operations of the program, with one row for each operation. The
+    group fills the rows ``start`` to ``stop`` - 1. ``left`` and ``right`` contain the row numbers of the
+    first and the second operands.
+    """
 
     kind: int
     start: int
@@ -56,7 +59,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # If an output is a constant, ``placed`` records the constant as an operation of the program.
+        # ``placed`` adds an operation to the program if an output is a constant.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -139,9 +142,9 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the indices of the required operations, sorted by level and kind. All inputs are required,
-    and all operations that the outputs ``wanted`` need. Inputs and constants have level 0. Every other
-    operation is one level above its highest operand."""
+    """Return the indices of all inputs and of the operations on which the outputs ``wanted`` depend. The
+    indices are sorted by level and kind. Inputs and constants have level 0. Every other operation is one
+    level above its highest operand."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -2,8 +2,8 @@
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
-The last factor of a product acts first. Products such as ``S*S`` are possible only on quadratic Lie groups,
-with the Cayley map in place of the exponential.
+The last factor of a product acts first. Products such as ``S*S`` are allowed only with the Cayley map. Each
+exponent must then lie in the Lie algebra of every quadratic Lie group.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that maps a term to the least and the greatest degree in the expansion of the term.
+    """Return a function that maps a term to a lower and an upper bound of the degrees in its expansion.
 
     The expansion of a term is a sum of products of the vector fields at the nodes. The degree of a product is
     the number of its factors. ``elements`` contains the definition of each name in the terms.
@@ -132,15 +132,15 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest degree in the expansion of a linear combination of terms.
+    """Return a lower and an upper bound of the degrees in the expansion of a linear combination of terms.
 
     The expansion is a sum of products of the vector fields at the nodes. The degree of a product is the
-    number of its factors. For a single term, ``extent(term)`` returns the least and the greatest degree.
+    number of its factors. For a single term, ``extent(term)`` returns the two bounds.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # For an empty combination, the result is (1, 1) by convention.
+    # An empty combination has no degrees. The bounds (1, 1) are a convention.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

@@ -26,8 +26,7 @@ SPACED = r" \\[2pt] "
 rows would touch."""
 
 NARROWER = r"\!"
-"""LaTeX code of a negative space. In a wide array, each entry has a negative space on both sides, or two
-negative spaces if one is not enough."""
+"""LaTeX code of a negative space. In a wide array, each entry has one or two negative spaces on each side."""
 
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
@@ -70,8 +69,8 @@ def _array(above: list[list[str]], below: list[list[str]], tableau: Tableau) -> 
 
 
 def tableau_html(tableau: Tableau) -> str:
-    """Return the Butcher array as an HTML table. If the method has no Butcher array, return the ``repr`` of
-    the tableau and equations in LaTeX. Do the same if the method has more than :data:`WIDEST` stages.
+    """Return the Butcher array as an HTML table. If the method has no Butcher array or more than
+    :data:`WIDEST` stages, return the ``repr`` of the tableau and equations in LaTeX.
 
     >>> from orderconds.tableau import Tableau
     >>> tableau_html(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])).count("<td")

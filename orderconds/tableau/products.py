@@ -159,8 +159,8 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return the least and the greatest number of factors in the products of each exponent. Each exponent
-        is a sum of products of the A_i."""
+        """Return a lower and an upper bound of the numbers of factors in the products of each exponent. Each
+        exponent is a sum of products of the A_i."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
