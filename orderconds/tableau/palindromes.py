@@ -5,10 +5,10 @@ maps y1 back to y0. An exponent has s coefficients, one for each stage. The conj
 the same coefficients in reverse order. A sequence of exponentials leads from y0 to y1, and another one leads
 from y0 to each stage value. The method is symmetric if two conditions hold:
 
-- The sequence for y1 is a palindrome: the conjugates of its exponentials are the same sequence in reverse
-  order.
-- In the sequence for stage i, replace each exponential by the inverse of its conjugate. For each i, the new
-  sequence leads from y1 to the value of stage s + 1 - i.
+- The sequence from y0 to y1 is a palindrome: the conjugates of its exponentials, in reverse order, form the
+  original sequence.
+- In the sequence from y0 to the value of stage i, replace each exponential by the inverse of its conjugate.
+  The new sequence leads from y1 to the value of stage s + 1 - i. This condition holds for all stages i.
 
 Neighbouring exponentials with proportional exponents count as one exponential.
 """
@@ -25,8 +25,8 @@ def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
     """Return True if a method is symmetric. Return None if the coefficients are balls (intervals) that are
     too wide to decide.
 
-    In a method with s stages, stage i is compared with stage s + 1 - i. A method that is symmetric only after
-    a permutation of its stages is not recognised.
+    In a method with s stages, stage i is compared with stage s + 1 - i. Hence the result is False for a
+    symmetric method whose stages are in another order.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]

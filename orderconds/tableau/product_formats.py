@@ -104,7 +104,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     def verify(self, where: str) -> None:
         """Check that the parts have different names, and that each flow in ``step`` is the flow of a part.
-        If the file contains ``rkn``, check that there are two parts, and that ``rkn`` names one of them."""
+        The optional key ``rkn`` requires two parts. Its value must be the name of a part."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -162,9 +162,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check the terms in all tables. A term is a node, the name of an element, or a bracket of two
-        terms. The definition of an element may contain only the names of earlier elements. If the map is
-        ``cay``, a term may also be a product of terms."""
+        """Check the terms of all elements and exponents. A term is a node, the name of an element, or a
+        bracket of two terms. The definition of an element may contain only the names of earlier elements. If
+        ``map`` is ``cay``, a term may also be a product of terms."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -219,9 +219,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. If the exponents contain products, each exponent must lie in the Lie algebra of
-        every quadratic group, such as SO(n) or Sp(2n). Raises TableauError for an exponent outside this
-        Lie algebra."""
+        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
+        algebra of a quadratic group, such as SO(n) or Sp(2n)."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -243,7 +242,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
                         f"quadratic groups",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="for each product and the reversed product: equal coefficients if the "
-                        "number of factors is odd, opposite coefficients if the number is even",
+                        expected="equal coefficients of a product and the reversed product if the number of "
+                        "factors is odd, and opposite coefficients if the number is even",
                     )
         return method, None

@@ -76,8 +76,8 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the composition as a Runge-Kutta tableau. Phi becomes the explicit Euler method, and its
-        adjoint Phi* becomes the implicit Euler method.
+        """Return the composition as a Runge-Kutta tableau. The basic method Phi becomes the explicit Euler
+        method. Its adjoint Phi* becomes the implicit Euler method.
 
         The implicit Euler step with step size beta_i h evaluates the vector field at its end point. The next
         explicit Euler step starts at this point, which is the value of stage i. Hence b_i = beta_i + alpha_i,
@@ -92,8 +92,8 @@ class AdjointComposition:
         basic method Phi is the flow of A, followed by the flow of B. Hence its adjoint Phi* is the flow of B,
         followed by the flow of A. Neighbouring flows of the same part are combined.
 
-        By a theorem of McLachlan (SIAM J. Sci. Comput. 16 (1995) 151), the splitting has the same order as
-        the composition with an arbitrary basic method.
+        For a general basic method, the composition has the same order as this splitting (McLachlan, SIAM J.
+        Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -148,10 +148,11 @@ class Magnus:
         )
 
     def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
-        """Expand each exponent into a sum of products of the A_i. Return one dictionary for each exponent.
+        """Expand the exponents into sums of products of the A_i, where A_i = h A(c_i h). Each sum is a
+        dictionary from products to coefficients.
 
-        The dictionary maps each product to its coefficient. A product is represented by the tuple of its node
-        indices, counted from 0 and read from right to left. For example, (i, j) denotes A_j A_i.
+        A product is a tuple of node indices, which are counted from 0. The last index belongs to the left
+        factor: (i, j) denotes A_j A_i.
         """
         named: dict[str, NodeSeries] = {}
         for name, combination in self.elements:
@@ -166,7 +167,8 @@ class Magnus:
 
     def is_expandable(self) -> bool:
         """Return True if the exponents expand to at most :data:`MOST_WORDS` products of the A_i. The number
-        of products is estimated: an exponent with at most m factors counts as s^m products."""
+        of products is estimated: if products in an exponent have up to m factors, the exponent counts as s^m
+        products. Here s is the number of nodes."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

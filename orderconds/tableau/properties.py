@@ -61,10 +61,10 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
     result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
 
-    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. For a file with
-    a table ``[proof]``, an undecided comparison is repeated with random numbers in place of the decimals.
-    Equality for random numbers counts as equality for all values of the decimals. The probability of an
-    error is negligible (:mod:`orderconds.tableau.random_member`).
+    Rounded decimals may be too inaccurate to decide whether the method equals the scheme. If the file has a
+    table ``[proof]``, the method and the scheme are then compared for random values of the decimals.
+    Equality for random values counts as equality for all values. The probability of an error is negligible
+    (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -93,7 +93,8 @@ def _low_storage(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
-    """Return a map from each undecided property to the reason why it is undecided.
+    """Return a map from each undecided property to the reason why it is undecided. ``computed`` is the result
+    of :func:`properties`.
 
     >>> from orderconds.tableau import Tableau
     >>> rounded = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
@@ -101,17 +102,16 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
     'rounded decimals'
     """
     balls = isinstance(tableau.ring, Balls)
-    slow = "not computed: the exact computation of signs would take more than a second"
+    slow = "not computed: the exact computation would take more than a second"
     rounded = "doubles" if tableau.doubles else "rounded decimals"
     reason = rounded if balls else slow
     return {name: reason for name, verdict in computed.items() if verdict is None}
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for all values of its rounded decimals. The test uses random
-    numbers in place of the decimals. Return None if the method with random numbers is not symmetric. The
-    method with the exact coefficients may still be symmetric. Return None if the file has no table
-    ``[proof]``."""
+    """Return True if the method is symmetric for all values of its rounded decimals. The method is tested
+    with random numbers in place of the decimals. If this test fails, return None, because the method with
+    the exact coefficients may be symmetric. Return None if the file has no table ``[proof]``."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

@@ -1,9 +1,9 @@
 """Conversion of Python numbers to coefficients of a tableau file. Integers, fractions, texts, floats, SymPy
 numbers, and rows of such numbers are accepted.
 
-A float is converted to the text of a double (:mod:`orderconds.tableau.doubles`). A text must satisfy the
-grammar of tableau files. Error messages contain the position of a wrong entry, such as ``A[2][1]``.
-Rows and columns are counted from 1.
+A float with few significant bits becomes an exact decimal. Other floats become decimals with the suffix ``d``
+(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. Error messages contain
+the position of a wrong entry, such as ``A[2][1]``. Rows and columns are counted from 1.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _rounded(x: float, digits: int, where: str) -> Coefficient:
 
 
 def _of_sympy(x: object, where: str) -> Coefficient:
-    """Convert a real number of SymPy to a coefficient. Floats of SymPy become doubles."""
+    """Convert a real number of SymPy to a coefficient. Floats of SymPy are converted like Python floats."""
     import sympy
 
     if not isinstance(x, sympy.Expr) or x.free_symbols:

@@ -1,9 +1,12 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
-An identity between two rational functions is tested at one random point. Each coordinate of the point is
-drawn from 2^128 numbers. If the two functions are different and have degree at most D, they have the same
-value at the point with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). Hence a false identity
-passes the test only with negligible probability.
+The coefficients of the method are rational functions of the replaced numbers. An identity between two
+rational functions, such as a symmetry condition, is tested at one random point. If the identity holds for all
+points, it also holds for the exact decimals and radicals.
+
+Each coordinate of the random point is drawn from 2^128 numbers. If the two functions are different and have
+degree at most D, they have the same value at the point with probability at most D / 2^128 (Schwartz 1980;
+Zippel 1979). Hence a false identity passes the test only with negligible probability.
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
 changes all random numbers. Hence nobody can choose coefficients for which the random numbers satisfy a false
@@ -28,8 +31,8 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
 """The number of bits of a random number. A false identity between rational functions of degree D passes
-the test with probability at most D / 2^128. The degree D is far below 2^40, because
-:data:`orderconds.tableau.evaluate.MAX_SIZE` limits the size of all intermediate values."""
+the test with probability at most D / 2^128. D is far below 2^40: values of functions of high degree have many
+bits, and :data:`orderconds.tableau.evaluate.MAX_SIZE` limits the number of bits."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if the method with random coefficients cannot be evaluated. For example, a
@@ -37,7 +40,7 @@ divisor may be zero."""
 
 
 class RandomMember(Rationals):
-    """The ring Q for a tableau file in which random numbers replace the rounded decimals and the radicals."""
+    """The ring Q. Random numbers replace the rounded decimals and the radicals of a tableau file."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
@@ -59,7 +62,7 @@ class RandomMember(Rationals):
         return max(int(x.p).bit_length(), int(x.q).bit_length())
 
     def method(self) -> Method:
-        """Return the method with random numbers as coefficients.
+        """Return the method with random numbers in place of the rounded decimals and the radicals.
 
         Raises one of the errors in :data:`OUTSIDE` if the method cannot be evaluated.
 

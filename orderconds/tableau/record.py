@@ -359,8 +359,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys in ``data`` define. If there is an embedded method, its order on
-    vector spaces is computed and stored in ``data``."""
+    """Return the tableau that ``data`` defines. If there is an embedded method, compute its order on vector
+    spaces. A tableau file must contain this order."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

@@ -1,9 +1,9 @@
 """Symmetry of Magnus methods: a step of length -h undoes a step of length h.
 
-The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). In the reverse
-step of length -h, the value at node i is -A_{s+1-i}. Hence the reverse step is a substitution: -A_{s+1-i}
-replaces A_i. Let Omega_1, ..., Omega_m be the exponents of the method. The method is symmetric if the
-substitution turns every Omega_k into -Omega_{m+1-k}.
+The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). The reverse
+step starts at time h and has length -h. At node i, the time is h - c_i h = c_{s+1-i} h. Hence the reverse
+step is a substitution: -A_{s+1-i} replaces A_i. Let Omega_1, ..., Omega_m be the exponents of the method. The
+method is symmetric if the substitution turns every Omega_k into -Omega_{m+1-k}.
 
 A combination of the A_i is called *odd* if the substitution changes its sign. It is called *even* if the
 substitution does not change it. The parity of a bracket or product follows from the parities of its factors.
@@ -21,8 +21,8 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Return True if a method is symmetric, and False if it is not. Return None if intervals are too wide to
-    decide, or if there are too many brackets to expand.
+    """Return True if a method is symmetric, and False if it is not. Return None if balls (intervals) are too
+    wide to decide, or if the expansion of the exponents is too long (:meth:`Magnus.is_expandable`).
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -48,10 +48,10 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 def sign(method: Magnus, ring: Ring) -> int | None:
     """Return the parity of the first exponent of the method: -1 for an odd exponent, 1 for an even exponent.
-    Return None in all other cases, and if the parity is undecided.
+    Return None if the parities of nodes and brackets do not decide the parity of the exponent.
 
-    The substitution of -A_{s+1-i} for A_i changes the sign of an odd exponent. It leaves an even exponent
-    unchanged.
+    Replace A_i by -A_{s+1-i} for all i. Then an odd exponent changes its sign, and an even exponent does not
+    change.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)
