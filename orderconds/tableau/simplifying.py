@@ -78,8 +78,8 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if the simplifying assumptions C(m) and D(m) hold. In this test, a polynomial p
-    represents the vector with the entries p(c_i), where c_i are the nodes."""
+    """Return True if the simplifying assumptions C(m) and D(m) hold. Let c_i be the nodes. A polynomial p
+    represents the vector with the entries p(c_i)."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

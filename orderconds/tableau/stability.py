@@ -9,9 +9,8 @@ conditions hold:
   polynomial in y^2.
 
 An A-stable method is L-stable if and only if deg P < deg Q (Hairer and Wanner, *Solving Ordinary Differential
-Equations II*, Sections IV.3 and IV.5). For coefficients that are balls (intervals), the result can be
-undecided. The result is also undecided if the computation would take too long (:data:`LARGEST`,
-:data:`EFFORT`).
+Equations II*, Sections IV.3 and IV.5). The result is undecided in two cases: the sign of a ball (interval)
+is unknown, or the computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
 """
 
 from __future__ import annotations
@@ -33,14 +32,13 @@ coefficients."""
 
 
 LARGEST = 100
-"""The largest number of rows in a diagonal block of the matrix A, which may be block triangular. If a block
-has more rows, stability is not decided. For a rational block with this number of rows, the computation
-takes a second."""
+"""The limit on the number of rows of the matrix A. For a larger matrix, stability is not decided. If A is
+block triangular, the limit applies to each diagonal block. The computation takes about a second for a
+rational block of this size."""
 
 EFFORT = 10**11
-"""The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the
-limit takes about a second. The limit is necessary because the coefficients in Euclid's algorithm grow
-fast."""
+"""The limit on the work of polynomial operations. The unit is the multiplication of two bits. The limit
+corresponds to about a second. It is necessary because the coefficients in Euclid's algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -60,8 +58,8 @@ class StabilityFunction(Struct, frozen=True):
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     """Decide whether the method is A-stable and L-stable. The keys of the result are ``a_stable`` and
-    ``l_stable``. Both values are None if the exact computation would take too long. For balls (intervals),
-    both values are None if a sign cannot be decided.
+    ``l_stable``. If the computation would take too long, both values are None. If the sign of a ball
+    (interval) is unknown, both values are None.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -70,7 +68,8 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        # The method is explicit. Its stability function is a polynomial and hence unbounded.
+        # The stability function of an explicit method is a polynomial. A polynomial of positive degree is
+        # unbounded.
         return {"a_stable": False, "l_stable": False}
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
@@ -132,12 +131,13 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """The error that is raised if a sign cannot be decided. There are two reasons: a ball (interval) contains
-    zero, or the computation would take too long."""
+    """Stability cannot be decided: the sign of a ball (interval) is unknown, or the computation would take
+    too long."""
 
 
 class _Limited:
-    """A number field that counts the work of its operations, and raises :class:`_Undecided` above a limit."""
+    """A ring with a limit on the total work. If the work exceeds :data:`EFFORT`, :class:`_Undecided` is
+    raised."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -146,24 +146,23 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the work of an operation from the remaining work. The unit of work is the multiplication
-        of one bit by one bit."""
+        """Subtract the work of an operation from the remaining work. The unit is the multiplication of two
+        bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
 
 
 def _bits(x: Element) -> int:
-    """Return the number of bits of the longest rational coefficient of x, an element of Q or of a number
-    field. The bits of numerator and denominator are added."""
+    """Return the bits of numerator and denominator of a rational number x. If x is an element of a number
+    field, return the largest result for a coefficient of x."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the estimated work of ``count`` multiplications from the remaining work. Let n be the number
-    of bits of the longest of ``numbers``. If ``quadratic`` is true, the estimate is quadratic in n.
-    Otherwise, it is linear in n."""
+    """Subtract the estimated work of ``count`` multiplications from the remaining work. The estimate is
+    quadratic or linear in the bits of the longest number."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -188,8 +187,8 @@ def _sign(x: Element, ring: SignedRing) -> int:
 
 
 def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
-    """Return the stability function R in lowest terms, over an exact field (Hairer and Wanner II, (IV.3.2),
-    (IV.3.3)).
+    """Return the stability function R in lowest terms (Hairer and Wanner II, (IV.3.2), (IV.3.3)). The ring
+    should be an exact field.
 
     >>> R = stability_function(RungeKutta(((QQ.rational(1, 2),),), (QQ.one,)), QQ)
     >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
@@ -235,8 +234,8 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Return True if every zero of Q has positive real part. For this test, Routh's scheme of Q(-z) is
-    computed. The result is True if all entries of the first column are non-zero and have the same sign.
+    """Return True if every zero of Q has positive real part. This is the case if all entries in the first
+    column of Routh's scheme of Q(-z) are non-zero and have the same sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -256,9 +255,9 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     """Return True if |R(iy)| <= 1 for all real y.
 
-    Let R = P/Q. The difference E = |Q(iy)|^2 - |P(iy)|^2 is a polynomial in x = y^2. The result is True if
-    E >= 0 for all x >= 0. If E is not the zero polynomial, two properties are tested: the leading coefficient
-    of E is positive, and every positive zero of E has even multiplicity.
+    Let R = P/Q. The difference E = |Q(iy)|^2 - |P(iy)|^2 is a polynomial in x = y^2. The condition is
+    E >= 0 for all x >= 0. A non-zero polynomial E satisfies this condition if its leading coefficient is
+    positive and every positive zero of E has even multiplicity.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -278,8 +277,8 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 for real y as a polynomial in y^2. The formula is
-    |p(iy)|^2 = (Re p(iy))^2 + y^2 (Im p(iy) / y)^2."""
+    """Return |p(iy)|^2 for real y as a polynomial in y^2. Here Re p(iy) and Im p(iy) / y are polynomials in
+    y^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]

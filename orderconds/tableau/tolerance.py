@@ -1,4 +1,4 @@
-"""The uncertainty of coefficients that were given as doubles."""
+"""A given uncertainty for the coefficients that are doubles in the tableau file."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Return a copy of an expression. In the copy, the ball of each double x has the radius
+    """Return a copy of the expression in which the ball of every double x has the radius
     ``units * 2^-53 * max(1, |x|)``."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x

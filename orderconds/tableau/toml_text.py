@@ -31,15 +31,15 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the text ``key = value`` for each value without a heading."""
+    """Yield the text ``key = value`` for each value that is not written below a heading."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)
 
 
 def _headed(key: str, value: object) -> bool:
-    """Return True if a value is written below a heading. Tables and lists of stages have a heading. A short
-    table ``embedded`` is written on one line, without a heading."""
+    """Return True if a value is written below a heading. These values are the list of stages and all tables.
+    A table ``embedded`` that fits on one line is an exception."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)
@@ -66,8 +66,8 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Return True if the value is the list of the stages of a method. Each stage is written as a table with
-    the heading ``[[stage]]``."""
+    """Return True if the value is a list of stages. Every stage is a table with the heading
+    ``[[stage]]``."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

@@ -42,9 +42,8 @@ class TwoRegisters:
         return len(self.B)
 
     def increments(self, ring: Ring) -> tuple[Row, ...]:
-        """Return the increments B_i K_i, where K_i is the value of the register K that stage i computes. Let
-        F_j be the vector field at stage j. Row i of the result contains the coefficients of F_1, ..., F_s in
-        B_i K_i.
+        """Return the increments B_i K_i, where K_i is the value of K after stage i. Row i of the result
+        contains the coefficients of F_1, ..., F_s in B_i K_i. Here F_j is the vector field at stage j.
 
         >>> from orderconds.ring import QQ
         >>> half, two = QQ.rational(1, 2), QQ.rational(2)
@@ -116,11 +115,11 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """If all other exponentials of ``second`` form the update of ``method``, return the last exponent of
-    ``second``. Otherwise, return None.
+    """If ``second`` consists of the update of ``method`` and one final exponential, return the exponent of
+    the final exponential. Otherwise, return None.
 
-    Let sum_i D_i F_i be the last exponent, where F_i is the vector field at stage i. A program needs only one
-    additional register for ``second``: stage i adds D_i F_i to this register.
+    Let sum_i D_i F_i be this exponent, where F_i is the vector field at stage i. Generated code needs only
+    one additional register for ``second``: stage i adds D_i F_i to the register.
 
     >>> from orderconds.tableau import Tableau, find
     >>> pair = Tableau.load(find("cf43"))
@@ -133,8 +132,8 @@ def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | 
 
 
 def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
-    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. If A_i does not exist or is
-    undecided, return a :class:`Rewriting` with the reason."""
+    """Return the coefficient A_i of the 2N scheme, where i is counted from 0. ``rows`` contains the
+    increments. If A_i does not exist or is undecided, return a :class:`Rewriting` with the reason."""
     above = ""
     for m in range(i, len(rows)):
         denominator = rows[m][i]
@@ -150,8 +149,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"A_{i + 1} has a zero denominator: in the increment of stage {m + 1}, k_{i} has the "
                 f"coefficient {ring.text(rows[m][i - 1])} and k_{i + 1} has the coefficient 0"
             )
-    # In each increment, the denominator of the quotient for A_i is zero. If a numerator is not zero, A_i does
-    # not exist. If all numerators are zero, A_i is arbitrary, and zero is chosen.
+    # No increment has a non-zero denominator for A_i. If a numerator is not zero, A_i does not exist. If all
+    # numerators are zero, A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 
@@ -173,8 +172,8 @@ def _compared(scheme: TwoRegisters, rows: list[Row], ring: Ring) -> Rewriting:
 
 
 def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
-    """Return the differences of successive rows of A, where b is appended as the last row. Return an error
-    text if the first stage is not the start value."""
+    """Return the differences of successive rows of A, where b is appended as the last row. If the first
+    stage is not the start value, return an error text."""
     if any(ring.is_zero(x) is False for x in method.A[0]):
         return "the first stage is not the start value"
     rows = (*method.A, method.b)
@@ -183,8 +182,8 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
     """Return the increments of a commutator-free method. The exponential of increment i leads from stage i
-    to stage i + 1. The exponential of the last increment leads to the update. Return an error text if the
-    first stage is not the start value, or if an increment would need several exponentials."""
+    to stage i + 1. The exponential of the last increment leads to the update. If the first stage is not the
+    start value, or if a single exponential is not enough between two stages, return an error text."""
     *paths, update = (
         [row for row in method.from_start(stage) if any(ring.is_zero(x) is not True for x in row)]
         for stage in (*method.stages, method.update)

@@ -12,19 +12,19 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The limit for the width of the ball (interval) of a double, as a multiple of its radius r
-(:func:`~orderconds.tableau.doubles.radius`). The exact width is 2r. The limit is larger because the endpoints
-of the ball are rounded outward.
+"""A factor. A double counts as accurate if the width of its ball (interval) is at most ``WIDER`` times the
+default radius (:func:`~orderconds.tableau.doubles.radius`). The factor exceeds 2, because the endpoints of
+the ball are rounded outward.
 """
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
-    """Return the largest radius of the inaccurate coefficients, as a decimal with two digits. If all
+    """Return the largest radius of an inaccurate coefficient, as a decimal with two digits. If all
     coefficients are accurate, the result is empty.
 
     A coefficient is inaccurate if the radius of its ball (interval) exceeds the error of one rounding to
-    ``bits`` bits. A double with the default radius counts as accurate, because generated code contains the
-    double without further rounding.
+    ``bits`` bits. Doubles are an exception: a double with the default radius counts as accurate
+    (:mod:`orderconds.tableau.doubles`). Generated code contains this double without further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

@@ -1,8 +1,8 @@
 """Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
 A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` names order
-conditions in which these numbers are the unknowns. The exact numbers solve the order conditions and are near
-the decimals.
+conditions in which these numbers are the unknowns. Near the decimals, the order conditions have an exact
+solution.
 
 ::
 
@@ -37,15 +37,14 @@ Built = tuple[Method, LowerOrder | None]
 
 
 class RootedRing(Ring, Protocol):
-    """A ring in which real roots of polynomials can be computed, such as balls or jets."""
+    """A ring in which real n-th roots can be computed, such as the ring of balls (intervals)."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real n-th root of x, where n is ``index``."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal of a file. ``constant`` is the decimal without its sign. The parser treats the sign
-    as an operator."""
+    """A rounded decimal of a file. ``constant`` is the decimal without its sign."""
 
     name: str
     constant: Constant
@@ -57,7 +56,7 @@ class Proof:
 
     The equations are the order conditions of one family up to order ``order``. ``conditions`` is the name of
     this family. The decimals in ``unknowns`` are the unknowns of the equations. The decimals in ``pinned``
-    count as exact numbers. ``printed`` maps names of numbers to their decimals in the source of the method.
+    count as exact numbers. ``printed`` maps names of numbers to the decimals that the publication contains.
     """
 
     conditions: str
@@ -70,7 +69,7 @@ class Proof:
     symbolic: SymbolicCoefficients = field(repr=False)
 
     def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
-        """Return the method with the given ``values`` of the unknowns."""
+        """Return the method with coefficients in ``ring``, for the given ``values`` of the unknowns."""
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
@@ -95,7 +94,8 @@ class SymbolicCoefficients(Struct, frozen=True):
     build: Callable[[Mapping[str, Element], Ring], Built]
 
     def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> Built:
-        """Return the method in which the decimals of the file have the values ``known``."""
+        """Return the method with coefficients in ``ring``. ``known`` contains the values of the rounded
+        decimals."""
         values = evaluate_in(_Substituted(ring, known), self.expressions, self.numbers, self.where)
         return self.build(values, ring)
 
@@ -139,6 +139,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # The evaluation limits the size of numbers in bits. In some rings (jets, residues), elements have no
-        # size. There, the size zero switches off the limit.
+        # The evaluation limits the size of numbers in bits. The size zero switches off the limit in rings
+        # without a method ``size``.
         return 0 if size is None else int(size(x))

@@ -2,8 +2,8 @@
 
 A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
 uses are not counted. The last stage of an explicit first-same-as-last method is not counted, because it is
-also the first stage of the next step. An implicit method iterates. The counts are then for one iteration,
-which evaluates each stage once.
+also the first stage of the next step. For an implicit method, the counts are those of one iteration, which
+evaluates each stage once.
 
 Equal exponents count as one exponential. A Munthe-Kaas method evaluates dexpinv at each stage on which
 the update depends. At a stage that equals the start value, dexpinv is not needed. All nested brackets of
@@ -25,8 +25,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Numbers of field evaluations, exponentials and brackets in one step. A number that is not counted is
-    None, such as the number of exponentials in a classical Runge-Kutta method."""
+    """Numbers of vector field evaluations, exponentials and brackets in one step. None denotes an operation
+    that is not counted, such as the exponentials of a classical Runge-Kutta method."""
 
     evaluations: int
     exponentials: int | None = None
@@ -88,7 +88,7 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
     """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u is a sum of powers
-    of ad_u. It is truncated after the power with the exponent ``cutoff``. For a method without a Butcher
+    of ad_u. The powers with exponents above ``cutoff`` are omitted. For a method without a Butcher
     tableau, only field evaluations are counted (:func:`evaluations`).
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
@@ -105,8 +105,8 @@ def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
 
 
 def magnus_work(tableau: Tableau) -> Work | None:
-    """Return the numbers of nodes, different exponents and commutators of a Magnus method. Return None for
-    all other methods.
+    """Return the cost of a step of a Magnus method: the numbers of nodes, different exponents and
+    commutators. Return None for all other methods.
 
     >>> from orderconds.tableau import find
     >>> magnus_work(Tableau.load(find("magnus4")))
@@ -118,8 +118,8 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
-    # The last stage of an explicit first-same-as-last method is also the first stage of the next step. Its
-    # weight is zero. The update does not depend on this stage, so the stage is not counted.
+    # The last stage of an explicit first-same-as-last method is not counted: the update does not depend on
+    # this stage. The stage is evaluated as the first stage of the next step.
     return len(_needed(method, ring))
 
 
@@ -142,8 +142,8 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # The update depends on ``stage``. If the exponentials of ``stage`` act on an earlier stage, the
-        # update also depends on the earlier stage.
+        # ``stage`` depends on the stages in its exponents, and on the stage to which its exponentials are
+        # applied.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -156,7 +156,8 @@ def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
 
 
 def _linear(method: Magnus, ring: Ring) -> Work:
-    """Count the nodes, the different exponents and the brackets of a Magnus method."""
+    """Count the nodes (as field evaluations), the different exponents and the brackets of a Magnus
+    method."""
     elements = dict(method.elements)
     used: dict[Term, None] = {}
 
@@ -184,16 +185,16 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in the series dexpinv_u = sum_k (B_k / k!) ad_u^k, truncated after
-    k = ``cutoff``. This number is the highest k for which the Bernoulli number B_k is not zero. If ``cutoff``
-    is None, brackets are not counted, and the result is 0."""
+    """Return the number of nested brackets in sum_k (B_k / k!) ad_u^k, the series dexpinv_u, for
+    k <= ``cutoff``. It is the largest such k with a non-zero Bernoulli number B_k. If ``cutoff`` is None,
+    the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2
 
 
 def _distinct(rows: Sequence[Sequence[Element]], ring: Ring) -> int:
-    """Return the number of different non-zero exponents. ``rows`` contains the coefficients of each
+    """Return the number of different non-zero exponents. Each row contains the coefficients of one
     exponent."""
     moving = [row for row in rows if any(ring.is_zero(x) is not True for x in row)]
     return len({tuple(ring.key(x) for x in row) for row in moving})

@@ -33,7 +33,7 @@ def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
     If the tableau was read from a file, the coefficients are copied as they are written in the file, together
-    with the named numbers and the table ``[proof]``. Otherwise, the coefficients are written in full
+    with the named numbers and the table ``[proof]``. Otherwise, values replace the named numbers
     (:func:`without_names`). A ball is written as a decimal with ``~``. The error of the decimal is at most
     one unit in the last place.
 
@@ -67,11 +67,10 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a tableau file, with the coefficients written in full.
+    """Return the keys and values of a tableau file in which values replace the named numbers.
 
-    The named numbers of the file are replaced by their values. Real roots that a polynomial (``minpoly``)
-    defines keep their names. If ``name_radicals`` is true, nested square roots receive the names
-    r1, r2, ...
+    Real roots that a polynomial (``minpoly``) defines keep their names. If ``name_radicals`` is true, nested
+    square roots receive the names r1, r2, ...
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
@@ -139,7 +138,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """Names r1, r2, ... for the generators of a field of nested square roots."""
+    """Names r1, r2, ... for the nested square roots in the coefficients."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text
@@ -163,7 +162,7 @@ class _Radicals:
 
 
 def _named_roots(tableau: Tableau) -> Data:
-    """Return the definitions of the named roots that generate the field of the tableau."""
+    """Return the definitions of the named roots: for each root, a polynomial and a decimal near the root."""
     return {
         name: {"minpoly": list(minpoly), "near": near}
         for name, minpoly, near in getattr(tableau.ring, "named_roots", ())

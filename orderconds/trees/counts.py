@@ -115,9 +115,9 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
     k.
 
-    Every word is the product of a unique non-increasing sequence of Lyndon words. Let L(n) be the number of
-    Lyndon words of weight n. Hence the product of (1 - x^n)^(-L(n)) over all n is the generating function of
-    all words, 1/(1 - sum_k letters(k) x^k).
+    Every word is the product of a unique non-increasing sequence of Lyndon words. Hence the product of
+    (1 - x^n)^(-L(n)) over all n is equal to 1/(1 - sum_k letters(k) x^k), the generating function of all
+    words. Here L(n) is the number of Lyndon words of weight n.
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

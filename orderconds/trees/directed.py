@@ -68,7 +68,7 @@ def density(tree: DirectedTree) -> int:
 
 
 def symmetry(tree: DirectedTree) -> int:
-    r"""Return sigma, the order of the symmetry group, for a tree in canonical order.
+    r"""Return sigma, the order of the symmetry group of a tree in canonical order.
 
     >>> symmetry(b"\0\2\2"), symmetry(b"\0\3\2")
     (2, 1)
@@ -158,10 +158,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""Yield three trees for each edge at the root.
-
-    The edge separates the tree into two parts u and v. The root belongs to u. The third tree is the whole
-    tree, with the root moved across the edge.
+    r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
+    contains the root, and v does not. The tree w is the given tree with the root of v as its root.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -182,8 +180,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # ``hats[place]`` is the number of edges of kind 1 if the root is at ``place``. If the root moves
-        # across an edge, only the kind of this edge changes.
+        # ``hats[place]`` is the number of edges of kind 1 if the vertex ``place`` is the root. If the root
+        # moves across an edge, only the kind of this edge changes.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
@@ -196,8 +194,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # Consider the paths from the vertex ``place`` that begin with the edge to its parent.
-        # ``above[place]`` is the number of edges of the longest of these paths.
+        # ``above[place]`` is the length of the longest path that begins with the edge from ``place`` to its
+        # parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])

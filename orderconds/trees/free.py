@@ -45,8 +45,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if a tree is superfluous. A tree is superfluous if one of its edges joins
-    the roots of two equal rooted trees. Its order condition follows from a condition of lower order.
+    r"""Return True if one of the edges of the tree joins the roots of two equal rooted trees. Such a tree is
+    superfluous: its order condition follows from a condition of lower order.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)
