@@ -13,14 +13,26 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
 
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, from_arrays
 from orderconds.exchange.claim_text import json_table
 from orderconds.exchange.comments import unescaped
 from orderconds.exchange.nested import Cells
-from orderconds.exchange.python_values import Array, Computed, Values, texts
+from orderconds.exchange.python_values import (
+    ARRAY_CALLS,
+    LIBRARIES,
+    NUMBER_CALLS,
+    ROOTS,
+    ROUNDED_CALLS,
+    Array,
+    Computed,
+    Values,
+    root_of,
+    texts,
+)
 from orderconds.tableau.file_format import Data
 
 ARRAYS = (*MATRICES, *ROWS)
@@ -28,9 +40,17 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 """Groups of names of arrays. A module contains a tableau if it assigns all arrays of one group."""
 
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
-HARMLESS = ("print",)
-MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
-"""Modules whose functions may occur in expressions, such as ``sqrt`` or ``Fraction``."""
+SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
+SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
+"""Functions and methods that change none of their arguments. They have at most two positional arguments here,
+because a further argument may be the array in which NumPy stores the result."""
+SAFE_KEYWORDS = ("axis", "dtype", "sep", "end", "precision", "dps")
+UNSAFE_NAMES = {
+    *("exec", "eval", "compile", "globals", "locals", "vars", "setattr", "delattr"),
+    *("builtins", "__builtins__", "__import__", "__dict__", "importlib", "modules"),
+}
+"""A statement with one of these names may change all variables."""
+Definition: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
@@ -130,45 +150,192 @@ def _header(text: str) -> Arrays:
 
 
 def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
-    """Yield the variables of an assignment, each with the expression on the right-hand side."""
+    """Yield the variables of an assignment, each with the expression on the right-hand side.
+
+    Nothing is yielded if an assignment has other targets than variables, such as ``A[0] = 1``.
+    """
+    pairs: list[tuple[ast.expr, ast.expr]] = []
     if isinstance(statement, ast.Assign):
         for target in statement.targets:
-            if isinstance(target, ast.Name):
-                yield target.id, statement.value
-            elif isinstance(target, ast.Tuple | ast.List) and isinstance(statement.value, ast.Tuple):
-                for name, value in zip(target.elts, statement.value.elts, strict=False):
-                    if isinstance(name, ast.Name):
-                        yield name.id, value
-    elif isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name) and statement.value:
-        yield statement.target.id, statement.value
+            if not isinstance(target, ast.Tuple | ast.List):
+                pairs.append((target, statement.value))
+            elif isinstance(statement.value, ast.Tuple) and len(target.elts) == len(statement.value.elts):
+                pairs += zip(target.elts, statement.value.elts, strict=True)
+            else:
+                return
+    elif isinstance(statement, ast.AnnAssign) and statement.value:
+        pairs.append((statement.target, statement.value))
+    if all(isinstance(target, ast.Name) for target, _ in pairs):
+        yield from ((target.id, value) for target, value in pairs if isinstance(target, ast.Name))
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
     """Evaluate one statement at the top level of the module, and store the new values of its variables.
 
-    If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops are not
-    evaluated: all variables in a loop become unknown.
+    If the right-hand side of an assignment cannot be evaluated, the variable becomes unknown. Loops and
+    conditions are not evaluated: all variables in them become unknown. The same is true for the variables in
+    each expression that may change a variable.
     """
-    if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
-        return
-    if isinstance(statement, ast.ImportFrom):
+    if unsafe_names(statement):
+        _doubt([statement], values)
+        values.forget([*values.known], statement.lineno)
+    elif isinstance(statement, ast.Import):
+        _import_modules(statement, values)
+    elif isinstance(statement, ast.ImportFrom):
         _import(statement, values)
-        return
-    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-        changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
-        values.forget(changed, statement.lineno)
-        values.assign(statement.name, Computed("a function or class", statement.lineno))
-        return
-    if isinstance(statement, ast.If) and _is_script_part(statement):
-        return
-    assigned = list(_assignments(statement))
-    if assigned and _targets_are_names(statement):
-        pairs = [(name, values.value(expression)) for name, expression in assigned]
-        for name, value in pairs:
-            values.assign(name, value)
+    elif isinstance(statement, Definition):
+        _define(statement, values)
+    elif isinstance(statement, ast.If) and _is_script_part(statement, values):
+        _doubt([*statement.orelse], values)
+    elif isinstance(statement, ast.Expr | ast.Assert | ast.Pass):
+        if may_change(statement, values):
+            _doubt([statement], values)
+    elif assigned := list(_assignments(statement)):
+        _assign(assigned, values)
     elif not _entry_assigned(statement, values):
-        mentioned = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
-        values.forget(sorted(mentioned), statement.lineno)
+        _doubt([statement], values)
+
+
+def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
+    # In ``A = B = [0]`` both variables are the same list, so each expression is evaluated only once.
+    found = {id(expression): values.value(expression) for _, expression in assigned}
+    for _, expression in assigned:
+        if may_change(expression, values):
+            values.forget(mentioned(expression), expression.lineno)
+    for name, expression in assigned:
+        values.assign(name, found[id(expression)], mentioned(expression))
+
+
+def _define(statement: Definition, values: Values) -> None:
+    """Store a function or class as an unknown value. A call may change all variables in the definition."""
+    # The body of a class is executed at once, but the bodies of its methods are not.
+    parts: list[ast.AST] = []
+    called: list[ast.expr] = []
+    waiting: list[ast.stmt] = [statement]
+    while waiting:
+        match waiting.pop():
+            case ast.ClassDef() as inner:
+                called += inner.decorator_list
+                parts += [*inner.bases, *inner.keywords]
+                waiting += inner.body
+            case ast.FunctionDef() | ast.AsyncFunctionDef() as inner:
+                called += inner.decorator_list
+                parts += [*inner.args.defaults, *filter(None, inner.args.kw_defaults)]
+            case other:
+                parts.append(other)
+    if any(may_change(part, values) for part in parts):
+        values.forget(mentioned(statement), statement.lineno)
+    _doubt(parts, values, scoped=True)
+    for decorator in called:
+        values.forget(mentioned(decorator), statement.lineno)
+    changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
+    values.forget(changed, statement.lineno)
+    values.assign(statement.name, Computed("a function or class", statement.lineno), mentioned(statement))
+
+
+def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
+    """Mark all variables as unknown that some parts of the module may change.
+
+    If ``scoped`` is true, assignments in these parts define variables of a class, not of the module.
+    """
+    for node in nodes:
+        line = getattr(node, "lineno", 0)
+        assigned, changed = bound(node)
+        doubtful = mentioned(node) if may_change(node, values) or (scoped and changed) else set()
+        if any(isinstance(x, ast.alias) and x.name == "*" for x in ast.walk(node)):
+            doubtful |= values.known.keys()
+        for name in set() if scoped else assigned:
+            values.assign(name, Computed("another statement may change the value", line), mentioned(node))
+        values.change(changed, mentioned(node), line)
+        values.forget(doubtful, line)
+
+
+def mentioned(node: ast.AST) -> set[str]:
+    """Return the names of all variables that occur in a part of the module."""
+    return {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
+
+
+def bound(node: ast.AST) -> tuple[set[str], set[str]]:
+    """Return the variables that a part of the module assigns, and the variables whose values it changes.
+
+    >>> [sorted(names) for names in bound(ast.parse("for k in y: np.array = x[0] = 1"))]
+    [['k'], ['np', 'x']]
+    """
+    assigned: set[str] = set()
+    changed: set[str] = set()
+    for x in ast.walk(node):
+        match x:
+            case ast.AugAssign():
+                changed.add(root_of(x.target))
+            case ast.Attribute(ctx=ast.Store() | ast.Del()) | ast.Subscript(ctx=ast.Store() | ast.Del()):
+                changed.add(root_of(x))
+            case ast.Name(ctx=ast.Store() | ast.Del()):
+                assigned.add(x.id)
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+                assigned.add(x.name)
+            case ast.alias():
+                assigned.add(x.asname or x.name.partition(".")[0])
+            case ast.ExceptHandler() | ast.MatchAs() | ast.MatchStar():
+                assigned.add(x.name or "")
+            case ast.MatchMapping():
+                assigned.add(x.rest or "")
+            case ast.Global() | ast.Nonlocal():
+                assigned.update(x.names)
+    return assigned - {"", "*"}, changed - {""}
+
+
+def unsafe_names(node: ast.AST) -> set[str]:
+    """Return the names of :data:`UNSAFE_NAMES` in a part of the module."""
+    attributes = {x.attr for x in ast.walk(node) if isinstance(x, ast.Attribute)}
+    imported = {x.name.partition(".")[0] for x in ast.walk(node) if isinstance(x, ast.alias)}
+    return (mentioned(node) | attributes | imported) & UNSAFE_NAMES
+
+
+def may_change(node: ast.AST, values: Values) -> bool:
+    """Return True if the evaluation of an expression may change a variable.
+
+    >>> values = Values("", ())
+    >>> [may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
+    [False, True, True, True]
+    """
+    for x in ast.walk(node):
+        if isinstance(x, ast.NamedExpr | ast.Await | ast.Yield | ast.YieldFrom):
+            return True
+        if isinstance(x, ast.Call) and not _is_safe(x, values):
+            return True
+    return False
+
+
+def _is_safe(call: ast.Call, values: Values) -> bool:
+    """Return True if a call changes none of its arguments."""
+    if len(call.args) > 2 and not (isinstance(call.func, ast.Name) and call.func.id == "print"):
+        return False
+    if any(keyword.arg not in SAFE_KEYWORDS for keyword in call.keywords):
+        return False
+    if any(isinstance(x, ast.Lambda | ast.Starred) for x in call.args):
+        return False
+    constructors = (*ARRAY_CALLS, *NUMBER_CALLS, *ROUNDED_CALLS, *ROOTS, "zeros")
+    if isinstance(call.func, ast.Name):
+        name = call.func.id
+        if name in values.known:
+            return False
+        return name in SAFE_FUNCTIONS or values.functions.get(name, name) in constructors
+    if not isinstance(call.func, ast.Attribute):
+        return False
+    known = values.known.get(root_of(call.func))
+    return call.func.attr in SAFE_METHODS or (known is None and call.func.attr in constructors)
+
+
+def _import_modules(statement: ast.Import, values: Values) -> None:
+    """Record the names that an import such as ``import numpy as np`` defines."""
+    for alias in statement.names:
+        root = alias.name.partition(".")[0]
+        name = alias.asname or root
+        values.forget([name], statement.lineno)
+        if root in LIBRARIES:
+            values.known.pop(name, None)
+        else:
+            values.assign(name, Computed(f"the module {alias.name}", statement.lineno))
 
 
 def _import(statement: ast.ImportFrom, values: Values) -> None:
@@ -177,34 +344,18 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
     values.forget(list(values.known) if "*" in names else names, statement.lineno)
     root = (statement.module or "").partition(".")[0]
     for alias in statement.names:
-        if root in MODULES:
+        if root in LIBRARIES:
             values.functions[alias.asname or alias.name] = alias.name
         elif alias.name != "*" and root != "__future__":
             unknown = Computed(f"a name imported from the module {statement.module}", statement.lineno)
             values.assign(alias.asname or alias.name, unknown)
 
 
-def _is_harmless(statement: ast.Expr) -> bool:
-    """Return True if a statement is a constant, such as a docstring, or a call of ``print``."""
-    value = statement.value
-    if isinstance(value, ast.Call):
-        return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
-    return isinstance(value, ast.Constant)
-
-
-def _is_script_part(statement: ast.If) -> bool:
-    """Return True for statements like ``if __name__ == "__main__":``. Imports usually skip their bodies."""
-    return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
-
-
-def _targets_are_names(statement: ast.stmt) -> bool:
-    """Return True if a statement assigns only to variables. Return False for ``A[0] = 1`` and ``x.y = 1``."""
-    if isinstance(statement, ast.AnnAssign):
-        return True
-    return isinstance(statement, ast.Assign) and all(
-        isinstance(node, ast.Name | ast.Tuple | ast.List | ast.expr_context)
-        for target in statement.targets
-        for node in ast.walk(target)
+def _is_script_part(statement: ast.If, values: Values) -> bool:
+    """Return True for ``if __name__ == "__main__":``. An import skips the body of this statement."""
+    return "__name__" not in values.known and ast.unparse(statement.test) in (
+        "__name__ == '__main__'",
+        "'__main__' == __name__",
     )
 
 
@@ -225,7 +376,10 @@ def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
         target = target.value
     if not place or not isinstance(target, ast.Name):
         return False
-    return values.assign_entry(target.id, place, values.value(statement.value))
+    value = values.value(statement.value)
+    if may_change(statement.value, values):
+        values.forget(mentioned(statement.value), statement.lineno)
+    return values.assign_entry(target.id, place, value, statement.lineno)
 
 
 def _add(entries: Arrays, values: Values, where: str) -> None:

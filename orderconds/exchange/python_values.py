@@ -7,6 +7,7 @@ import json
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import count
 
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import coefficient
@@ -32,7 +33,13 @@ entry can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
 """Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
 because the type is complex or cannot store all doubles."""
+COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
+"""Constructors of arrays that copy their argument. ``list`` and ``tuple`` share the rows of the argument.
+``asarray`` copies a list, but returns an array of NumPy itself."""
+QUOTIENT_CALLS = ("Fraction", "Rational")
 ROOTS = {"sqrt": 2, "cbrt": 3}
+LIBRARIES = ("fractions", "decimal", "math", "numpy", "sympy", "mpmath", "jax", "cupy", "autograd")
+"""Modules whose functions may occur in expressions, such as ``sqrt`` or ``Fraction``."""
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
 MAX_OPERATIONS = 5_000
@@ -46,6 +53,12 @@ class Array:
 
     items: list[Value]
     integral: bool = False
+    memory: int = field(default_factory=count().__next__, compare=False)
+    """The number of the memory that contains the entries. Arrays with equal numbers may share memory."""
+
+    def parts(self) -> set[int]:
+        """Return the numbers of the memories of this array and of its rows."""
+        return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
 @dataclass(frozen=True)
@@ -89,6 +102,10 @@ class Values:
     """A map from an imported name to the original name of the function. After
     ``from sympy import Rational as R``, the key ``R`` has the value ``Rational``.
     """
+    sources: dict[str, tuple[frozenset[str], frozenset[int]]] = field(default_factory=dict)
+    """For a variable that is not evaluated: the variables in its definition, and the memories of their arrays
+    at that time.
+    """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -101,12 +118,35 @@ class Values:
         except TableauError as problem:
             return Computed(f"{problem.found}", node.lineno)
 
-    def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name. A name in ``named`` keeps the number that a comment defines."""
-        if name not in self.named:
-            self.known[name] = value
+    def assign(self, name: str, value: Value, mentioned: Collection[str] = ()) -> None:
+        """Assign a value to a name. A name in ``named`` keeps the number that a comment defines.
 
-    def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
+        ``mentioned`` lists the variables in the definition of a value that is not evaluated.
+        """
+        if name not in self.named:
+            traced = self._traced(mentioned) if isinstance(value, Computed) else (frozenset(), frozenset())
+            self.known[name], self.sources[name] = value, traced
+
+    def change(self, names: Collection[str], mentioned: Collection[str], line: int) -> None:
+        """Mark the variables ``names`` as unknown. Later their values may share those of ``mentioned``."""
+        traced = self._traced({*names, *mentioned})
+        self.forget(names, line)
+        for name in {*names}.difference(self.named):
+            self.known[name] = Computed("another statement may change the value", line)
+            self.sources[name] = traced
+
+    def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
+        """Return ``names`` and the variables in their definitions, and the memories of all their arrays."""
+        found, memories = set(names), set[int]()
+        for name in names:
+            more, shared = self.sources.get(name, (frozenset(), frozenset()))
+            found |= more
+            memories |= shared
+        for value in map(self.known.get, found):
+            memories |= value.parts() if isinstance(value, Array) else set()
+        return frozenset(found), frozenset(memories)
+
+    def assign_entry(self, name: str, place: Sequence[int], value: Value, line: int) -> bool:
         """Assign a value to the entry with the indices ``place``. Return True on success, and False
         otherwise."""
         target = self.known.get(name)
@@ -117,16 +157,33 @@ class Values:
                 if target.integral and not _is_integral(value):
                     return False
                 target.items[index] = value
+                self._forget_others(target, line)
                 return not isinstance(value, Array)
             target = target.items[index]
         return False
 
-    def forget(self, names: Collection[str], line: int) -> None:
-        """Mark the variables ``names`` as unknown. A variable with the same array also becomes unknown."""
-        shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
-        for name, value in self.known.items():
-            if name in names or id(value) in shared:
+    def _forget_others(self, changed: Array, line: int) -> None:
+        """Mark each variable as unknown that may share the memory of ``changed`` without containing it."""
+        for name, other in self.known.items():
+            if isinstance(other, Array) and changed.memory in other.parts() and not _contains(other, changed):
                 self.known[name] = Computed("another statement may change the value", line)
+
+    def forget(self, names: Collection[str], line: int) -> None:
+        """Mark the variables ``names`` as unknown.
+
+        Each variable that may share an array with one of them also becomes unknown.
+        """
+        doubtful, before = frozenset(names), frozenset[str]()
+        while doubtful != before:
+            before = doubtful
+            doubtful, memories = self._traced(before)
+            doubtful |= {
+                name
+                for name, value in self.known.items()
+                if isinstance(value, Array) and value.parts() & memories
+            }
+        for name in doubtful & self.known.keys():
+            self.known[name] = Computed("another statement may change the value", line)
 
     def _value(self, node: ast.expr) -> Value:
         if isinstance(node, ast.List | ast.Tuple):
@@ -202,27 +259,35 @@ class Values:
             raise _NotLiteral(node, f"the operation {type(node.op).__name__}")
         if len(operands) > MAX_OPERATIONS:
             raise _NotLiteral(node, f"an expression with more than {MAX_OPERATIONS} operations")
-        values = [self._number(x) for x in (first, *operands[::-1])]
+        terms = (first, *operands[::-1])
+        if any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in terms):
+            raise _NotLiteral(node, "arithmetic with strings")
+        values = [self._number(x) for x in terms]
         return Chain(tuple(signs[::-1]), tuple(values))
 
     def _call(self, node: ast.Call) -> Value:
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
         arguments = node.args
+        if (root := root_of(node.func)) in self.known:
+            raise _NotLiteral(node, f"a call of {root}, which the module defines or imports")
         if isinstance(node.func, ast.Name):
-            if function in self.known:
-                raise _NotLiteral(node, f"a call of {function}, which the module defines or imports")
             function = self.functions.get(function, function)
+        if any(keyword.arg not in ("dtype", "precision", "dps") for keyword in node.keywords):
+            raise _NotLiteral(node, f"a keyword argument of {function}")
         if function in ARRAY_CALLS and len(arguments) == 1:
             _require_doubles(node)
-            given = self._value(arguments[0])
-            return _copy(given, function in TYPED_CALLS and _is_integral(given))
+            return _array(function, self._value(arguments[0]))
         if function == "zeros" and len(arguments) == 1:
+            _require_doubles(node)
             return _zeros(self._value(arguments[0]), node)
-        if function in ROOTS and len(arguments) == 1:
+        if function in ROOTS and len(arguments) == 1 and not node.keywords:
             return Power(self._number(arguments[0]), Fraction(1, ROOTS[function]))
-        if function in NUMBER_CALLS and len(arguments) == 2:
+        if function in QUOTIENT_CALLS and len(arguments) == 2 and not node.keywords:
             return Chain(("/",), (self._number(arguments[0]), self._number(arguments[1])))
-        if function in (*NUMBER_CALLS, *ROUNDED_CALLS) and 1 <= len(arguments) <= 2:
+        if function in NUMBER_CALLS and len(arguments) == 1 and not node.keywords:
+            return self._converted(function, arguments[0])
+        if function in ROUNDED_CALLS and 1 <= len(arguments) <= 2:
+            _require_digits(node)
             return self._converted(function, arguments[0])
         raise _NotLiteral(node, f"a call of {function or 'a function'}")
 
@@ -234,6 +299,13 @@ class Values:
         if function in ROUNDED_CALLS and isinstance(text, str):
             return parse(f"{text}~" if "." in text else text)
         return self._number(argument)
+
+
+def root_of(node: ast.expr) -> str:
+    """Return the first name of an expression such as ``np.linalg.norm``, or '' if there is none."""
+    while isinstance(node, ast.Attribute | ast.Subscript | ast.Starred):
+        node = node.value
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def _class(operator: ast.operator) -> str:
@@ -248,6 +320,19 @@ def _require_doubles(node: ast.Call) -> None:
             raise _NotLiteral(node, "a dtype other than float64")
 
 
+def _require_digits(node: ast.Call) -> None:
+    """Raise an error if a call such as ``Float('0.577', 2)`` drops digits of its text."""
+    text = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
+    digits = sum(x.isdigit() for x in text) if isinstance(text, str) else 17
+    # A text may contain two digits more than its precision in bits needs.
+    allowed = [(x, 1.0, 0) for x in node.args[1:]]
+    allowed += [(k.value, 0.30103, 2) if k.arg == "precision" else (k.value, 1.0, 0) for k in node.keywords]
+    for given, factor, more in allowed:
+        size = given.value if isinstance(given, ast.Constant) else None
+        if type(size) is not int or factor * size < digits - more:
+            raise _NotLiteral(node, "a precision below the number of digits")
+
+
 def _is_integral(value: Value) -> bool:
     """Return True if a value is an integer, or an array of integers."""
     if isinstance(value, Array):
@@ -257,9 +342,30 @@ def _is_integral(value: Value) -> bool:
     return isinstance(value, Constant) and value.value.denominator == 1 and not value.unit
 
 
+def _array(function: str, given: Value) -> Value:
+    """Return the array that a constructor of :data:`ARRAY_CALLS` makes from a value."""
+    integral = function in TYPED_CALLS and _is_integral(given)
+    if function in COPYING_CALLS or not isinstance(given, Array):
+        return _copy(given, integral)
+    if function == "asarray":
+        return _twin(given, integral)
+    return Array(list(given.items))
+
+
 def _copy(value: Value, integral: bool) -> Value:
     """Copy an array and its rows, and set their attribute ``integral``. Return other values unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
+
+
+def _twin(value: Array, integral: bool) -> Array:
+    """Return a copy of an array that may share the memory of the array."""
+    items = [_twin(x, integral) if isinstance(x, Array) else x for x in value.items]
+    return Array(items, integral, value.memory)
+
+
+def _contains(array: Array, part: Array) -> bool:
+    """Return True if ``part`` is the array or one of its rows."""
+    return array is part or any(isinstance(x, Array) and _contains(x, part) for x in array.items)
 
 
 def _zeros(shape: Value, node: ast.Call) -> Array:

@@ -1,0 +1,303 @@
+"""Python modules that change their arrays in roundabout ways: what is read is what Python computes, or the
+module is refused."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from typing import Any
+
+import numpy as np
+import pytest
+
+from orderconds.errors import TableauError
+from orderconds.exchange.python_source import read
+
+START = "import numpy as np\nA = [[0, 0], [1, 0]]\nb = [0, 1]\n"
+CHANGES = [
+    "r=[0,0]; A=[r,[1,0]]; r[0]=3",
+    "r=[0,0]; A=[r,[1,0]]; r.append(3)",
+    "B=list(A); B[1][0]=7",
+    "B=tuple(A); B[1][0]=7",
+    "B = A\nB[1][0]=7",
+    "A = np.array(A); B = np.asarray(A); B[1,0]=7",
+    "A = np.array(A); B = list(A); B[1][0]=7",
+    "r = A[1]\nr[0] = 7",
+    "r = A[1]\nr += [2]",
+    "x = A.pop()",
+    "x = [A.pop()]",
+    "print(A.pop())",
+    "print(A := [[0,0],[7,0]])",
+    "A = B = [[0,0],[1,0]]\nB[1][0] = 7",
+    "def f():\n    A[1][0] = 7\nf()",
+    "def f():\n    A[1][0] = 7\nx = f()",
+    "g = lambda: A[1].__setitem__(0, 7)\ng()",
+    "exec('A[1][0] = 7')",
+    "globals()['A'] = [[0,0],[7,0]]",
+    "if __name__ != '__main__':\n    A[1][0]=7",
+    "if __name__ == '__main__':\n    pass\nelse:\n    A[1][0]=7",
+    "import math as A",
+    "for A[1][0] in (5,7): pass",
+    "[A[1].__setitem__(0,k) for k in (3,7)]",
+    "x = np.add(A, 1, out=np.zeros((2,2)))",
+    "A = np.array(A, dtype=float); x = np.add(A, 1, out=A)",
+    "A = np.array(A, dtype=float); A += 1",
+    "x, A[1][0] = 1, 7",
+    "(x, A[1]) = 1, [7, 0]",
+    "A[1], b = [7,0], b",
+    "B = (A, b)\nB[0][1][0] = 7",
+    "B = {'A': A}\nB['A'][1][0] = 7",
+    "from operator import setitem\nsetitem(A[1], 0, 7)",
+    "x = __import__('operator').setitem(A[1], 0, 7)",
+    "class C:\n    A[1][0] = 7",
+    "class C:\n    global A\n    A = [[0,0],[7,0]]",
+    "try:\n    1/0\nexcept ZeroDivisionError as A:\n    pass\nA = [[0,0],[7,0]]",
+    "if True:\n    from math import pi as A",
+    "if True:\n    def A(): pass",
+    "match 1:\n    case A: pass",
+    "with open('/dev/null') as A: pass",
+    "B = [x for x in A]\nB[1][0] = 7",
+    "B = A[:]\nB[1][0] = 7",
+    "B = A.copy()\nB[1][0] = 7",
+    "B = sorted(A)\nB[1][0] = 7",
+    "c = np.sum(A, axis=1)",
+    "n = len(A)",
+    "c = [sum(x) for x in A]",
+    "c = np.array(A).sum(axis=1)",
+    "s = len(b); assert s == 2",
+    "f = A.__setitem__\nf(1, [7,0])",
+    "p = A[1].append\nx = p(3)",
+    "A = np.zeros((2,2)); A[1,0] = 1; B = A.T\nB[0,1] = 7",
+    "del A[1]\nA.append([7,0])",
+    "def f(x=A.pop()): pass",
+    "@A.append\ndef f(): pass",
+    "c = A[1]; c[0] = 7",
+    "a = b\na[0] = 7",
+    "b = list(b); B = b; B[0] = 7",
+    "B = [A, b]; C = list(B); C[0][1][0] = 7",
+    "import operator\noperator.setitem(A[1],0,7)",
+    "x = (lambda y: y.pop())(A)",
+    "vars()['A'] = 1",
+    "import sys; sys.modules[__name__].A = [[0,0],[7,0]]",
+    "A = A if A else b",
+    "A = np.array([[0,0],[1,0]]); A[1,0] = 0.5",
+    "A = np.array([[0,0],[1,0]]); B = np.array(A); B[1,0] = 5",
+    "b = np.array([0,1])/2",
+    "i = 1; A[i][0] = 7",
+    "x = 3; x = x + 1; A = [[0,0],[x,0]]",
+    "A[1][0]: int = 7",
+    "sum = lambda x: x.pop()\nc = sum(A)",
+    "len = A.append\nn = len(1)",
+    "from numpy import put as sum\nsum(A[0], 0, 7)",
+    "np.array = lambda x: [[0,0],[7,0]]\nA = np.array(A)",
+    "import numpy\nnumpy.sqrt = lambda x: 7\nb = [numpy.sqrt(4), 1]",
+    "def sqrt(x): return 7\nb = [sqrt(4), 1]",
+    "class np:\n    array = staticmethod(lambda x: [[0,0],[7,0]])\nA = np.array(A)",
+    "array = 3",
+    "np = type('X', (), {'array': staticmethod(lambda x: [[0,0],[7,0]])})\nA = np.array(A)",
+    "print = A.append\nprint([7])",
+    "b = [0, 1]; b2 = b; b = [x for x in b2]",
+    "A = np.zeros((2,2),dtype=int); A[1,0] = 1/2",
+    "A = np.zeros((2,2),int); A[1,0] = 1/2",
+    "A = np.array(A, copy=False); B = np.array(A, copy=False); B[1,0]=7",
+    "A = np.asarray(A); B = np.asarray(A); C = np.asarray(A); B[1,0]=7",
+    "A = np.asarray(A); B = np.asarray(A); C = np.asarray(B); C[1,0]=7",
+    "(x, (A, b)) = 1, ([[0,0],[7,0]], [1, 0])",
+    "b = [int('10', 2), 1]",
+    "b = ['1'+'2', 1]",
+    "b = [(-8)**(1/3), 1]",
+    "from sympy import Float\nb = [Float('0.5772156649', 3), 1]",
+    "from sympy import Float\nb = [Float('0.577', precision=53), 1]",
+    "b = [-2**2, 1]",
+    "b = [2**-1, 2**0.5]",
+    "b = [7 % 2, 1]",
+    "b = [1_0/2_0, .5e1]",
+    "*A, b = [[0,0],[1,0],[1,2]]",
+    "b[-1] = 7",
+    "A[-1][0] = 7",
+    "A[1][0], b[0] = 7, 8",
+    "A[1] = [7, 0]",
+    "A[1] = b",
+    "b = A[0]",
+    "r = b\nA = [b, b]\nr[0] = 5",
+    "A = [[0,0],[1,0]]\nA = A\nb = b",
+    "b = np.array(b, dtype=np.float64)",
+    "x: float = A.pop()",
+    "async def f(): A.pop()",
+    "while A[0][0] == 0: A[0][0] = 1",
+    "from fractions import Fraction\nb = [Fraction(numerator=1, denominator=2), Fraction(1,2)]",
+    "f'{A.pop()}'",
+    "x = f'{A.pop()}'",
+    "x = A[A.pop()[0]]",
+    "A[A.pop()[0]-1][0] = 5",
+    "b[0] = A.pop()[0]",
+    "def g():\n    yield A.pop()\nx = list(g())",
+    "def g():\n    yield A.pop()\nx = tuple(g())\nb = list(b)",
+    "h = A.pop\nx = list(map(h, []))\nx = [h()]",
+    "def f(): A.pop()\nf2 = f\nf2()",
+    "class C:\n    def __init__(self): A.pop()\nC()",
+    "class C:\n    def __init__(self): A.pop()\nD = C\nx = D()",
+    "class C:\n    def __init__(self): A.pop()\nx = [C() for _ in (1,)]",
+    "class S(list):\n    def __len__(self): A.pop(); return 1\ns = S()\nn = len(s)",
+    "class S:\n    def __add__(self, o): A.pop(); return 1\ns = S()\nx = s + 1",
+    "class S:\n    @property\n    def sum(self): A.pop(); return lambda: 1\ns = S()\nx = s.sum()",
+    "def f(): A.pop(); return 1\nx = sum(f() for _ in (1,))",
+    "import copy\nB = copy.copy(A)\nB[1][0] = 7",
+    "B = A * 1\nB[1][0] = 7",
+    "B = A + []\nB[1][0] = 7",
+    "B = A or b\nB[1][0] = 7",
+    "B = (A)\nB[1][0] = 7",
+    "B = {**{'x': A}}\nB['x'][1][0] = 7",
+    "B = [*A]\nB[1][0] = 7",
+    "B = dict(x=A)\nB['x'][1][0] = 7",
+    "B = zip(A, b)\nfor r, x in B: r[0] = 7",
+    "import numpy as xp\nB = xp.asarray(A)\nA[1][0] = 7",
+    "B = [A]\nC = B\nC[0][1][0] = 7",
+    "B = [A]\nC = tuple(B)\nC[0][1] = [7,0]",
+    "import numpy as np\nnp = 3\nA = np",
+    "np2 = np\nA = np2.array(A)",
+    "from numpy import array as arr\nA = arr(A)\nB = arr(A)\nB[1,0] = 4",
+    "A, B = [[0,0],[1,0]], b\nB[0] = 3",
+    "A = B = np.array([[0,0],[1,0]])\nB[1,0] = 3",
+    "order = 2\norder += 1",
+    "for order in (1,2,3): pass",
+    "__name__ = '__main__'\nif __name__ == '__main__':\n    A[1][0] = 7",
+    "if '__main__' == __name__:\n    A[1][0] = 7",
+    "if __name__ == '__main__' or True:\n    A[1][0] = 7",
+    "if not __name__ == '__main__':\n    A[1][0] = 7",
+    "import sys\nsys.setrecursionlimit(A.pop()[0]+1000)",
+    "lst = [A.pop() if False else 1]",
+    "assert len(A) == 2 and A.pop()",
+    "assert sum(b) == 1",
+    "with np.errstate(all='ignore'):\n    x = 1",
+    "np.set_printoptions(precision=3)",
+    "np.set_printoptions(precision=3)\nA = np.array(A)",
+    "s = len(A)\nfor i in range(s): print(A[i])",
+    "from typing import List\nx: List[int] = [1]",
+    "c = [sum(row) for row in A]\nassert abs(sum(b)-1) < 1e-12",
+    "c = np.sum(A, axis=1)\nassert np.allclose(c, [0,1])",
+    "print('order', 2, len(b), sep=' ', end='')",
+    "A = np.array(A); A.setflags(write=False)",
+    "A = np.array(A)\nA.flags.writeable = False",
+    "B = A\nr = A[1]\nA = [[0,0],[1,0]]\nr[0] = 7\nA = B",
+    "r = A[1]\nr = r\nr[0] = 7",
+    "r = A[1]\ns = r\ns += [2]",
+    "def f(): A[1][0] = 7\nA = [[0,0],[2,0]]\nf()",
+    "def f(): b[0] = 7\nB = b\nb = [0, 1]\nf()",
+    "B = b\ndef f(x=b): x[0] = 7\nf()\nb = B",
+    "B = A\nr = lambda q=A: q.pop()\nA = [[0,0],[1,0]]\nr()\nA = B",
+    "for row in A: row[0] = 1",
+    "for row in A: row += [1]",
+    "for i in range(2): A[i][0] = i",
+    "for i in range(2):\n    r = A[i]\n    r[0] = 1",
+    "if b:\n    r = A[1]\nr[0] = 7",
+    "for r in A: pass\nr[0] = 7",
+    "for r in A: pass\nr.append(1)",
+    "class C:\n    rows = A\nC.rows[1][0] = 7",
+    "class C:\n    rows = A\nx = C.rows.pop()",
+    "class C:\n    rows = A\nx = C\nx.rows[1][0] = 7",
+    "class C:\n    A = [[0,0],[7,0]]",
+    "class C:\n    for r in A: r[0] = 7",
+    "class C:\n    def m(self): A.pop()\n    m(0)",
+    "class C:\n    def m(self): return A\nC().m()[1][0] = 7",
+    "def m(): return A\nm()[1][0] = 7",
+    "def m(): return A\nx = m()\nx[1][0] = 7",
+    "m = lambda: A\nm()[1].append(3)",
+    "class C:\n    class D:\n        A[1][0] = 7",
+    "with open('/dev/null') as f:\n    A[1][0] = 7",
+    "B = A; del A; A = B; B[1][0] = 7",
+    "del A[1][0]",
+    "A = [[0,0],[1,0]]; b = A[0]; A[0][1] = 0",
+    "for A in [[[0,0],[7,0]]]: pass",
+    "try:\n    import numpy as np\nexcept ImportError:\n    np = None",
+    "if True: b = [7, 1]",
+    "if False: b = [7, 1]",
+    "b = [7, 1] if False else [0, 1]",
+    "try:\n    b[0] = 5\nfinally: pass",
+    "x = y = A\nx[1][0] = 7",
+    "x, y = A\ny[0] = 7",
+    "[x, y] = A\ny[0] = 7",
+    "x, *y = A\nx[0] = 7",
+    "for k, r in enumerate(A): r[0] = k",
+    "for r in list(A): r[0] = 9",
+    "rows = [r for r in A]\nrows[0].append(2)",
+    "g = (r for r in A)\nnext(g)[0] = 7",
+    "it = iter(A)\nr = next(it)\nr[0] = 7",
+    "d = {1: A}\nd[1][1][0] = 7",
+    "d = {}\nd['A'] = A\nd['A'][1][0] = 7",
+    "s = []\ns.append(A)\ns[0][1][0] = 7",
+    "s = [1]\ns[0] = A\ns[0][1][0] = 7",
+    "s = [A]\ns[0][1][0] = 7",
+    "s = [A, 1]\nA[1][0] = 7",
+    "t = (A,)\nt[0][1][0] = 7",
+    "import functools\nf = functools.partial(A.append, 3)\nf()",
+    "A = np.array(A); v = A[1]; v[0] = 7",
+    "A = np.array(A); v = A[1, :]; v *= 3",
+    "A = np.array(A); v = A.reshape(4); v[2] = 7",
+    "A = np.array(A); v = A.ravel(); v[2] = 7",
+    "A = np.array(A); np.fill_diagonal(A, 4)",
+    "A = np.array(A); A.fill(3)",
+    "A = np.array(A); A[:] = 0",
+    "A = np.array(A); A[0, :] = 1",
+    "A = np.array(A)\nfor v in np.nditer(A, op_flags=['readwrite']): v[...] = 2",
+    "x = 0\nx += len(A)",
+    "b = [0, 1]; b += [2]",
+    "A = [[0, 0], [1, 0]]; B = A.copy(); B[1] = [7, 0]",
+    "def b(): pass\nb = [0, 1]",
+    "@print\ndef q(): pass",
+    "nonlocal_ = 1\nassert A[1][0] == 1, A.pop()",
+]
+
+
+def numbers(value: Any) -> Any:
+    """Return nested lists of complex numbers, rounded to ten digits."""
+    if isinstance(value, list | tuple | np.ndarray):
+        return [numbers(x) for x in value]
+    if isinstance(value, str):
+        value = eval(value.replace("^", "**").rstrip("~d"), {"sqrt": lambda x: x**0.5})
+    number = complex(value)
+    return complex(round(number.real, 10), round(number.imag, 10))
+
+
+def executed(source: str) -> object:
+    """Return the numbers of A and b after the execution of a module, or None if this fails."""
+    names: dict[str, object] = {"__name__": "module"}
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(compile(source, "module", "exec"), names)
+        return numbers(names["A"]), numbers(names["b"])
+    except Exception:
+        return None
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_what_is_read_is_what_python_computes(change: str) -> None:
+    source = f"{START}{change}\n"
+    try:
+        data = read(source.encode(), "m.py")
+    except TableauError:
+        return
+    if {"A", "b"} <= data.keys():
+        assert (numbers(data["A"]), numbers(data["b"])) == executed(source)
+
+
+@pytest.mark.parametrize(
+    "harmless",
+    [
+        "c = np.sum(A, axis=1)\nassert np.allclose(c, [0, 1])",
+        "c = [sum(row) for row in A]\nassert abs(sum(b) - 1) < 1e-12",
+        "A = np.asarray(A)\nb = np.array(b, dtype=float)",
+        "def step(f, y, h):\n    k = [f(y)]\n    return y + h * sum(b[i] * k[0] for i in range(2))",
+        "class Method:\n    order = 1\n\n    def step(self, y):\n        return A[1][0] * y",
+        "for row in A:\n    print(row, sum(row))",
+        "np.set_printoptions(precision=3)\nprint(len(A), b, sep=' ')",
+        "methods = {}\nmethods['heun'] = (A, b)",
+        "try:\n    import numpy as np\nexcept ImportError:\n    np = None",
+        "B = np.array(A)\nB[1, 0] = 7\nC = A\nC[1][0] = 1",
+        "import sys\nif __name__ == '__main__':\n    A[1][0] = 7\n    sys.exit(0)",
+    ],
+)
+def test_modules_that_only_read_their_arrays_are_not_refused(harmless: str) -> None:
+    source = f"{START}{harmless}\n"
+    data = read(source.encode(), "m.py")
+    assert (numbers(data["A"]), numbers(data["b"])) == executed(source)
