@@ -61,8 +61,8 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 class ArrayMethod:
     """A compiled method for a scene (problem) with large matrices.
 
-    ``lowered`` is the program of a step before the compiler passes, and ``program`` is the program after
-    them. ``trace`` contains a report of each pass. ``kernel`` contains the statements of the step.
+    ``lowered`` is the program of a step, and the compiler passes transform it to ``program``. ``trace``
+    contains a report of each pass. ``kernel`` contains the statements of the step.
     """
 
     lowered: Program
@@ -75,8 +75,8 @@ def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
     Each compiler pass is verified on a small problem on the sphere. This test is sufficient, because the
-    passes do not depend on the field or on the size of the matrices. MethodError is raised if
-    :func:`array_kernel` cannot translate the method.
+    passes do not depend on the field or on the size of the matrices. MethodError is raised if the method has
+    implicit stages, or if one of its operations is not available for large matrices.
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -130,7 +130,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
     # The statements of the step compute the error estimate as an array, so ``Estimate`` contains no scalar
-    # expressions. The order 0 is a placeholder, which the caller replaces.
+    # expressions. The caller replaces the order 0 by the order of the estimate.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -185,7 +185,7 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
-        # The only remaining output is the new state, which is a single matrix.
+        # Without the embedded solution, the only output is the new state, which is a single matrix.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
@@ -195,8 +195,8 @@ class _Builder:
         # Without an embedded solution, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the new state minus the embedded solution. X_0 cancels, so the estimate is the basis
-        # times the difference of the displacements. Without X_0, the rounding errors are smaller.
+        # The estimate is the new state X_0 + B D_1 minus the embedded solution X_0 + B D_2. The formula
+        # B (D_1 - D_2) has smaller rounding errors than the difference of the two states.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -221,7 +221,7 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # The core S represents the group element exp(B S B^T).
+            # The group element exp(B S B^T) is represented by S, the core of the argument.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -258,7 +258,8 @@ class _Builder:
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
             self.displaced(x, displacement)
-        # The statements write the value of the field to ``w``, the next k free columns of the basis.
+        # The matrix ``w`` consists of the next k free columns of the basis. The statements of
+        # ``matrices.program`` write the value of the field to ``w``.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
         # If the field does not depend on time, the program has no time variable, and t is set to 0.
@@ -292,12 +293,12 @@ class _Builder:
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # With C = J + D, the core is S = (E J^T - J E^T) + (E D^T - D E^T). The first summand has two nonzero
-        # blocks: ``below`` is the unit matrix, and ``right`` is minus the unit matrix.
+        # With the matrices above, the core is S = (E J^T - J E^T) + (E D^T - D E^T). The matrix
+        # E J^T - J E^T has two nonzero blocks: the unit matrix at ``below``, and its negative at ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # The summand E D^T - D E^T contains D^T in its last k rows, and -D in its last k columns.
+            # In S, the term E D^T adds D^T to the last k rows. The term -D E^T adds -D to the last k columns.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -338,7 +339,8 @@ class _Builder:
 
         Each pair in ``terms`` contains a coefficient and a core. The result has the size of the largest core.
         """
-        # A smaller core is extended by zeros. The extended core represents the same element of the algebra.
+        # If a core is smaller than the result, it is extended by zero rows and columns. The extended core
+        # represents the same element of the algebra.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
@@ -349,7 +351,7 @@ class _Builder:
         matrix G = B^T B and N = x G y, the core of the bracket is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        # The matrices x, G and y remain small if the state has many rows. Their products are therefore cheap.
+        # The sizes of x, G and y do not depend on the number of rows of the state, so x G y is cheap.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -365,12 +367,12 @@ class _Builder:
         with ``order`` nested brackets.
         """
         terms, power = [(self.one, y)], y
-        # With the Bernoulli numbers B_k, the series is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + .... The
-        # variable ``power`` contains the nested bracket of the term with B_k.
+        # With the Bernoulli numbers B_k, dexp^{-1}_x y is y + B_1/1! [x, y] + B_2/2! [x, [x, y]] + ....
+        # In the term with B_k, ``power`` is the expression with k nested brackets.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)
-            # The Bernoulli numbers B_3, B_5, ... are zero.
+            # The Bernoulli numbers B_3, B_5, ... are zero, so their terms are omitted.
             if b:
                 terms.append((self.domain.rational(b.numerator, b.denominator), power))
         return self.combination(name, terms)

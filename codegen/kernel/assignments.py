@@ -3,8 +3,8 @@
 Shared and long expressions become assignments, and blocks of implicit equations become loops. A sweep is one
 execution of the body of a loop. A loop contains the expressions that depend on its unknowns. All other
 expressions are assigned before the loop. Statements after a loop use values of the last sweep, or compute
-these values again. A step may be able to start from the solutions of earlier steps. Then one statement before
-all loops sets the first values of the unknowns.
+these values again. If the loops can start from the solutions of earlier steps, one statement before all loops
+sets the first values of the unknowns.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """An expression with at least this number of operations gets a name.
 
-A smaller limit gives more and shorter assignments with the same operations. For the method vcg:triple_jump on
-the scene heavy_top, the limits 5, 10 and 20 give 265, 199 and 187 assignments.
+With a smaller number, there are more and shorter assignments, and the operations remain the same. For the
+method vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187 assignments.
 """
 
 
@@ -70,23 +70,23 @@ class Assignments:
             # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep, so it must not
-            # use values of the loop body. Therefore the matrix is placed before the images.
+            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. It must not
+            # use names from the loop body, so the matrix is processed before the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # ``block.kept`` lists values of the body for later statements. Values that no later expression
-            # reads are skipped.
+            # ``block.kept`` lists values for statements after the loop. If no later expression reads a value,
+            # the value is skipped.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # If ``block.leading`` is false, Newton's matrix may use values of the loop body.
+            # If ``block.leading`` is false, Newton's matrix can use names from the loop body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's method corrects the unknowns once more after the last execution of the loop body. The
-            # values of the body are then slightly outdated. If the equations have residuals, later statements
-            # correct the values in ``block.kept``, and compute all other values again. Without residuals, the
-            # values are computed again if the cost is low.
+            # In the last sweep, Newton's method changes the unknowns after the loop body. The values of the
+            # body then belong to slightly different unknowns. If the equations have the form r(u) = 0, later
+            # statements correct the values in ``block.kept``, and compute all other values again. If the
+            # equations have the form u = g(u), the values are computed again only if the cost is low.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -110,9 +110,9 @@ class Assignments:
         The level is the index of the last loop whose unknowns occur in the node, or -1 if no unknowns occur.
         """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        # A value with two uses gets a name. Each root has one use, plus one for each operation that reads it.
+        # A node with two uses gets a name. Each operation that reads a node is one use, and each entry of
+        # ``roots`` is one use.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
@@ -128,33 +128,32 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the largest level of its arguments. The level of an unknown is the index
-            # of the loop that computes it.
+            # The level of an unknown is the index of its loop. The level of an operation is the largest level
+            # of its arguments.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # A step may skip the start statement, so other statements must not read names that this statement
-        # assigns.
+        # If solutions of earlier steps are stored, a step skips the assignments in the start statement. So
+        # other statements must not read the names of these assignments.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
-            raise AssertionError("a starting value depends on the unknowns of a block")
+            raise AssertionError("a first value depends on the unknowns of a loop")
         for node in walk(values):
-            # A value that other statements read is assigned before the start statement, which may be skipped.
+            # If other statements read a value, it is assigned before the start statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # Names from the start statement are deleted from ``done``, so that no other statement uses them.
+        # No other statement may use the names in the start statement, so ``done`` must not contain them.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
-        """Return Newton's matrix and the assignments that compute its entries."""
-        # The matrix is computed only in some sweeps, so later statements must not use names that are
-        # assigned for the matrix.
+        """Return the matrix of Newton's method for ``block``, and the assignments that compute it."""
+        # Not every sweep computes the matrix. So other statements must not use the names in ``own``.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -165,16 +164,16 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if the values that later statements read can be computed again at low cost.
+        """Return True if statements after loop k can compute the values of the loop again at low cost.
 
-        The limit is half of the cost of one sweep of loop k.
+        The cost must be less than half of the cost of one sweep.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
-        # Values that depend on a later loop are computed after loop k in all cases, so they do not count.
+        """Return the cost of the operations in ``roots`` with the level k (:meth:`_prepare`)."""
+        # Values with a higher level are always computed after loop k, so they cause no additional cost.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
@@ -218,7 +217,7 @@ class Assignments:
 
     def _let(self, node: Expr, value: Expr, target: list[Any]) -> Expr:
         hint = self.hints.get(node.id)
-        # Only values without a hint are numbered, so the numbers w1, w2, ... have no gaps.
+        # A value with a hint uses no number, so the names w1, w2, ... have no gaps.
         self.count += hint is None
         name = self.name(hint or f"w{self.count}")
         target.append(Let(name, value))

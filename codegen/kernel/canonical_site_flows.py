@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-One sweep computes successive flows of the same kind. A kick is a flow that changes only the momenta. At each
-site, it reads the group elements q of the neighbours, but not their momenta. The sweep of a kick can
-therefore overwrite the momenta. All other flows change each site independently of its neighbours.
+One sweep computes successive kicks, or successive flows of other kinds. A kick is a flow that changes only
+the momenta. A kick reads the group elements q of neighbouring sites, but not their momenta. Therefore the
+sweep of a kick can overwrite the momenta. All other flows change each site independently of its neighbours.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from codegen.scene.flow import Flow
 from codegen.scene.problem import TIME, Problem
 
 Timed = tuple[str, Flow, Number]
-"""The name of a flow, the flow, and its duration divided by the duration of the first flow of the sweep."""
+"""The name of a flow, the flow, and its duration relative to the first flow of the sweep."""
 
 Word = Sequence[tuple[Summand, Number]]
 """The flows of a step in the order of application, each with its duration as a multiple of h."""
@@ -33,9 +33,9 @@ COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
 The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. So
-each of these two sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or a
-flow of pairs, a copy is added before it. If the last sweep is a kick or a flow of pairs, a copy is added
-after it.
+each of these two sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or
+visits pairs of sites, a copy is added before it. If the last sweep is a kick or visits pairs of sites, a copy
+is added after it.
 """
 
 
@@ -48,9 +48,9 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # All flows of a summand start at the same time t. The time is advanced after the last of these flows.
+        # The time advances after the last flow of a summand, so all flows of the summand start at one time.
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks may depend on time. For other time-dependent parts, no exact flow is known.
+    # Only kicks can depend on time. No exact flow is known for other time-dependent summands.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
@@ -70,13 +70,14 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 
 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
-    """Return the kernel of a step that consists of the given flows.
+    """Return the kernel of a step that executes ``flows`` in the given order.
 
-    If necessary, sweeps that copy the state are added before and after the flows (:data:`COPY`).
+    Each flow contains the index of its sweep in ``sweeps``. If necessary, a copy of the state is added before
+    or after the flows (:data:`COPY`).
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
-    # The sweep that copies the state is listed as a flow with duration zero.
+    # A step consists of flows, so the copy of the state is represented by a flow with duration zero.
     if ends:
         sweeps = [*sweeps, _copy(scene, label)]
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
@@ -90,9 +91,9 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
 
 
 def _over_sites(sweep: Sweep) -> bool:
-    """Return True if a sweep visits every site and reads no neighbours.
+    """Return True if a sweep visits every site, and reads no coordinates of neighbours.
 
-    Only such a sweep may be first or last in a step.
+    Other sweeps cannot be first or last in a step (:data:`COPY`).
     """
     return sweep.axis == OWN and not sweep.neighbours
 
@@ -109,7 +110,7 @@ def _copy(scene: Problem, label: str) -> Sweep:
 def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     """Return the sweep for flows that act on each site separately.
 
-    The kernel of the sweep denotes the duration of the first flow by h.
+    In the kernel of the sweep, h is the duration of the first flow.
     """
     ends = _moved(scene, SharedArguments(), run)
     loads = tuple(Load(s, Row(STATE, k)) for k, s in enumerate(scene.symbols))
@@ -118,7 +119,7 @@ def _local(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
-    """Return the sweep for a kick. In the kernel of the sweep, h is the duration of the kick."""
+    """Return the sweep for successive kicks. In its kernel, h is the duration of the first kick."""
     sites = scene.sites
     assert sites is not None
     domain = SharedArguments()
@@ -131,7 +132,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         (s, k, row) for k, column in enumerate(sites.symbols) for row, s in enumerate(column) if s in read
     ]
     outside = None
-    # At an open boundary, formulas replace the coordinates of the missing neighbours.
+    # At an open boundary, formulas of the scene give the coordinates of the missing neighbours.
     if sites.outside:
         values = {s: domain.space.sym(s) for s in scene.symbols}
         values |= scene.scalars(domain, domain.space.sym(TIME))
@@ -150,7 +151,7 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
     """Return the coordinates of a site after the flows of ``run``, as formulas in the old coordinates."""
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
-    # The states of neighbours and the parameters do not change during the flows of one site.
+    # All flows in ``run`` use the same parameters and the same coordinates of the neighbours.
     fixed = {s: domain.space.sym(s) for s in scene.sites.names}
     fixed |= scene.scalars(domain, domain.space.sym(TIME))
     state = tuple(map(domain.space.sym, scene.symbols))
@@ -164,9 +165,7 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
 
 
 def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
-    """Return the kernel that computes the expressions ``ends`` from the coordinates of a site and its
-    neighbours.
-    """
+    """Return the kernel that computes ``ends`` from the coordinates of a site and its neighbours."""
     assert scene.sites is not None
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}

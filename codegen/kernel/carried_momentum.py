@@ -1,9 +1,9 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The step program and the emitted code may use different frames. If only the emitted code uses the body frame,
-each step converts the momentum. If only the program uses the body frame, a run converts the momentum once at
-its beginning and once at its end (:class:`codegen.ir.kernel.Carried`). If the option ``whole`` is set, each
-step converts the momentum instead.
+The program of a step and the emitted code may use different frames. If only the emitted code uses the body
+frame, each step converts the momentum. If only the program uses the body frame, a run of several steps
+converts the momentum at its beginning and at its end (:class:`codegen.ir.kernel.Carried`). In this case, the
+option ``whole`` makes each step convert the momentum instead.
 """
 
 from __future__ import annotations
@@ -25,9 +25,8 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    If only the program uses the body frame, ``whole`` determines when the momentum is converted. If ``whole``
-    is true, each step converts the momentum. If ``whole`` is false, a run converts the momentum at its
-    beginning and at its end.
+    ``whole`` is used if only the program uses the body frame. If ``whole`` is true, each step converts the
+    momentum. If ``whole`` is false, a run of several steps converts the momentum at its beginning and end.
     """
 
     scene: Problem
@@ -36,34 +35,35 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """True if the step program and the emitted code use the same frame for momenta."""
+        """True if the program and the emitted code use the same frame for momenta."""
         # If the scene has a body group, the emitted code stores the momentum in the body frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
     def _size(self) -> int:
-        """The number of coordinates of the group element q, which precede the momentum in the state."""
+        """The number of coordinates of the group element q. In the state, q precedes the momentum."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Convert the old state of the emitted code to the initial state of the step program."""
+        """Convert the old state from the frame of the emitted code to the frame of the program."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the body momentum m, but the program uses the space momentum Ad*_{q^-1} m.
+            # The state contains the body momentum mu. The program uses the space momentum Ad*_{q^-1} mu.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
-        # If ``whole`` is false, the run has transformed the momentum before the first step.
+        # If ``whole`` is false, the momentum was converted before the first step of the run.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Convert the new state of the step program to the new state of the emitted code.
+        """Convert the new state from the frame of the program to the frame of the emitted code.
 
-        ``state`` is the old state of the emitted code. ``start`` is the initial state of the program, which
-        ``begin`` computed from ``state``.
+        ``state`` is the old state in the frame of the emitted code. ``start`` is the old state in the frame
+        of the program, that is, the result of ``begin``.
         """
-        # ``new`` may be an embedded solution. It is empty if the method has no embedded solution.
+        # ``new`` is the new state or an embedded solution. If the method has no embedded solution, this
+        # argument is empty.
         if self._alike or not new:
             return new
         # The group element is the same in both frames, so only the momentum is converted.
@@ -72,8 +72,8 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # Only the increment of the momentum is transformed back. Rounding makes q slightly non-orthogonal, so
-        # a transformation of the whole momentum would change its length in each step.
+        # The new momentum is the old momentum plus the difference of two converted momenta. Rounding errors
+        # make q slightly non-orthogonal, but the errors of the two conversions nearly cancel.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
@@ -89,9 +89,9 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the kernels that transform the momentum at the beginning and at the end of a run.
+        """Return the kernels that convert the momentum at the beginning and at the end of a run of steps.
 
-        The result is None if a run does not transform the momentum.
+        If no conversion is needed there, the result is None.
         """
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
@@ -109,7 +109,7 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    # If a group acts on itself, a point is a group element and is described as such.
+    # If a group acts on itself, a point is an element of the group.
     if kind is Kind.POINT and not action.on_itself:
         return f"point on which {group.name} acts by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -47,13 +47,13 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # two orders of the factors in products are compared: the given order, and constant factors first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # Deferred flows are applied once in a run, so the variants are compared without these flows. A scene with
-    # run-time inputs has no deferred flows, because the inputs are sampled in every step.
+    # Deferred flows are applied once in a run of many steps, so the variants are compared without these
+    # flows. If the scene has run-time inputs, no flow is deferred, because each step samples the inputs.
     parted = None if scene.inputs else part(program, scene)
-    # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
+    # ``core`` excludes the deferred flows. Deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # The formulas of the group and of the scene can share subexpressions, so their costs cannot be added. The
-    # time of each variant is estimated from its compiled kernel.
+    # The formulas of the group and of the scene can share subexpressions, so the cost of a step is not the
+    # sum of their costs. Therefore the time of each variant is estimated from its compiled kernel.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -83,7 +83,7 @@ def time(kernel: Kernel) -> tuple[float, int]:
     operations is preferred.
     """
     nodes = walk(kernel.expressions())
-    # Symbols and constants cost nothing, and a change of sign is usually part of an addition.
+    # Symbols and constants cost nothing. A change of sign is usually combined with an addition.
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The estimate is the length of the critical path, plus the number of operations divided by the
     # throughput.
