@@ -4,11 +4,12 @@ Let F(t) be the elementary differential of a tree t. Grafting u onto v correspon
 in the direction F(u). Unordered trees with the grafting product form the free pre-Lie algebra (Chapoton and
 Livernet 2001).
 
-Now let t be an ordered tree with the branches t_1, ..., t_k at the root. Let f be the vector field of the
-differential equation. F(t) results from f by k derivatives. The directions are F(t_k), ..., F(t_1), in this
-order. Each direction is treated as a constant element of the Lie algebra. These derivatives do not commute.
-Grafting onto the root takes one more derivative, after the k derivatives. Hence the grafted tree becomes the
-leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+On a Lie group, trees are ordered, because derivatives in different directions do not commute. Let t be an
+ordered tree with the branches t_1, ..., t_k at the root. F(t) is obtained from the vector field by k
+derivatives in the directions F(t_k), ..., F(t_1), in this order. Each direction is a constant
+element of the Lie algebra. Grafting onto the root corresponds to one further derivative after these k
+derivatives. Hence the grafted tree becomes the leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math.
+8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
@@ -59,11 +60,11 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Return the forests that result if each tree of ``word`` is attached to a vertex of ``onto``, in all
-    possible ways. The tuple contains one forest for each way, so a forest can occur several times.
+    r"""Return the forests that result from grafting: each tree of the forest ``word`` becomes a branch of a
+    vertex of ``onto``.
 
-    Trees that are attached to the same vertex keep their order. They are placed to the left of the existing
-    branches of this vertex.
+    The tuple contains one forest for each choice of the vertices, so a forest can occur several times. New
+    branches of a vertex keep their order. They are placed to the left of the existing branches.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')
@@ -81,11 +82,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result if each tree of ``word`` is attached to a vertex of ``tree``, in all
-    possible ways.
-
-    Trees that are attached to the root are placed to the left of its existing branches.
-    """
+    """Return the trees that result if each tree of the forest ``word`` is grafted onto a vertex of ``tree``,
+    as in :func:`left_graft`."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
@@ -93,8 +91,8 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k divisions of a word of k trees into two subwords. Each tree of the word belongs
-    to exactly one of the two subwords. The trees of a subword keep their order.
+    r"""Return all divisions of a forest into two forests. Each tree of ``word`` belongs to one of the two
+    forests. The trees of a forest keep their order. For k trees, there are 2^k divisions.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

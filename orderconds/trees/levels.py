@@ -64,7 +64,10 @@ def rooted_at_new_vertex(forest: Forest) -> Tree:
 
 
 def density(forest: Forest) -> int:
-    r"""Return the density gamma, the product of the sizes of all subtrees (HLW III.1, Definition 1.10).
+    r"""Return the density gamma (HLW III.1, Definition 1.10).
+
+    Each vertex is the root of a subtree that contains all its descendants. The density is the product of the
+    numbers of vertices of these subtrees.
 
     >>> density(b"\0\1\2\1")
     8
@@ -111,8 +114,8 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` if the tree has more than 250 vertices, a character is
-    not allowed, or brackets are empty or unbalanced.
+    Raises :class:`~orderconds.errors.InputError` if there are more than 250 vertices, a character is not
+    allowed, or brackets are empty or unbalanced.
     """
     levels, depth = bytearray(), 0
     compact = re.sub(r"[\s,]", "", written)

@@ -1,8 +1,8 @@
 """Enumeration of ordered (planar) rooted trees and ordered forests.
 
 An ordered forest is encoded by the levels of its vertices in preorder. The first level is 0. No level exceeds
-the preceding level by more than one. The forest is a tree if level 0 occurs only at the start. Sequences are
-listed in descending lexicographic order. Each sequence is computed in place from the preceding sequence.
+the preceding level by more than one. The forest is a tree if level 0 occurs only at the start. The
+sequences of levels are enumerated in descending lexicographic order.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Find the last level that is greater than ``lowest``. Decrease this level by one. Each later level
-        # becomes one more than the preceding level.
+        # Compute the next smaller sequence. The last level above ``lowest`` decreases by one. Later levels
+        # become as great as possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

@@ -1,7 +1,7 @@
 """Enumeration of unordered rooted trees as canonical level sequences.
 
-Each sequence is computed in place from the preceding sequence (T. Beyer and S. M. Hedetniemi, "Constant time
-generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712).
+The algorithm computes each sequence from the preceding sequence (T. Beyer and S. M. Hedetniemi, "Constant
+time generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712).
 """
 
 from __future__ import annotations
@@ -12,8 +12,10 @@ from orderconds.trees.levels import Tree
 
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form. The first tree is a
-    path. In the last tree, all vertices except the root are leaves.
+    """Yield the canonical form of every rooted tree with ``vertices`` vertices exactly once
+    (:func:`orderconds.trees.levels.canonical`).
+
+    The first tree is a path. In the last tree, all vertices except the root are leaves.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]
@@ -24,8 +26,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # Number the vertices in preorder. Let p be the last vertex of level 2 or more. Let q be the parent of
-        # p. Replace the levels from p to the end. The new levels repeat the levels of q, ..., p - 1.
+        # Compute the next smaller canonical sequence. Let p be the last vertex of level 2 or more, with the
+        # parent q. The levels from q to the vertex before p are repeated from p to the end.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

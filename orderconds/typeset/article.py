@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the shape of each vertex and the direction of each edge in the drawing of a tree. Examples are
-    ``white`` for a vertex and ``outward`` for an edge."""
+    """Return the sign of each vertex, for example ``white``, and the kind of each edge, for example
+    ``outward``."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -75,12 +75,12 @@ def _signs(diagram: Diagram) -> list[str]:
 MEANINGS = {
     "white": "a black vertex denotes a derivative of the first function of the system (f or T), and a white "
     "vertex denotes a derivative of the second function (g or V)",
-    "outward": "an arrow leads from a derivative with respect to the position to a derivative with respect "
-    "to the momentum",
+    "outward": "an arrow denotes a derivative with respect to the position at the tail, and a derivative "
+    "with respect to the momentum at the head",
     "transport": "a diamond denotes a coadjoint action on the momentum",
     "bracket": "a point with two branches denotes the commutator of the branches",
 }
-"""Explanations of shapes and directions in the drawings of trees."""
+"""The meanings of vertices and edges in the drawings of trees."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:

@@ -45,8 +45,8 @@ def _lines(condition: OrderCondition) -> str:
 
 
 def table(family: str, by_order: Sequence[Sequence[OrderCondition]]) -> str:
-    """Return an HTML table with the order, the tree and the equation of each condition, followed by the
-    legend.
+    """Return an HTML table with the order, the tree and the equation of each of the first :data:`MOST`
+    conditions. A legend of the symbols follows the table.
 
     >>> from orderconds.derivation import derive
     >>> table("rk", derive("rk", order=2).by_order).count("<svg")

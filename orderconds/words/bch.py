@@ -83,7 +83,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
     """Return the coordinates of log(exp A exp B) with respect to the bracketed Lyndon words in ``words``. The
-    list ``words`` contains all Lyndon words of one length in ascending order."""
+    list ``words`` contains all Lyndon words of one length in ascending order. ``expansions`` contains the
+    shorter bracketed Lyndon words as series of words."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

@@ -94,7 +94,7 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
     """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of z, z^2, ... in the
-    function 2 z/(2 + z). This function maps z = cay(x) - 1 to x.
+    function 2 z/(2 + z). This function maps z = cay(x) - 1 to x (see :func:`cayley_scales`).
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

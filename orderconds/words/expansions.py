@@ -5,8 +5,8 @@ k. The first letter of a word acts first. Hence the word k_1 ... k_n denotes the
 The functions return coefficients at t = 1. At another time t, the coefficient of a word of weight
 n is multiplied by t^n.
 
-The other series have the letters U and X. In these series, a word denotes the product of its letters in the
-written order.
+The series of dexp, inverse dexp and inverse dcay have the letters U and X. In these series, a word denotes
+the product of its letters in the written order.
 
 Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas,
 Oteo and Ros, Physics Reports 470 (2009) 151.
@@ -31,7 +31,7 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in Y(1).
+    """Return the coefficient of the word k_1 ... k_n in Y(1). Letter k denotes X_k.
 
     Y solves Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The coefficient is the
     integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral equals the product of
@@ -63,8 +63,9 @@ def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in the Cayley expansion Omega at t = 1.
 
     Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k.
-    Omega is defined by Y = cay(Omega) with the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2). It satisfies
-    the equation Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+    The first letter of a word acts first. Omega is defined by Y = cay(Omega) with the Cayley transform
+    cay(x) = (1 - x/2)^-1 (1 + x/2). Omega satisfies the equation Omega' = A - [Omega, A]/2 - Omega A Omega/4
+    (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -76,10 +77,11 @@ def cayley(word: Word) -> Fraction:
 def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in the series F_n of the Fer expansion at t = 1.
 
-    Let Y solve Y' = A(t) Y with Y(0) = I. The Fer expansion is Y = exp(F_1) exp(F_2) exp(F_3) .... Of these
-    factors, exp(F_1) acts last. F_n is the integral of a series A_n from 0 to t. The first series is A_1 = A.
-    The next ones are A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word
-    in F_n has weight 2^n - 1 or more.
+    Let Y solve Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... Letter k denotes X_k. The
+    first letter of a word acts first. The Fer expansion is Y = exp(F_1) exp(F_2) exp(F_3) .... The factor
+    exp(F_1) acts last. F_n is the integral of a series A_n from 0 to t. The first series is A_1 = A. The next
+    series are A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n, where ad_F X = F X - X F. Each word in F_n
+    has weight 2^n - 1 or more.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -122,8 +124,8 @@ def dexp_inverse(length: int) -> Series:
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # Compute the coefficient B_n/n! of x^n in x/(e^x - 1). The product with (e^x - 1)/x is one. Hence
-        # sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
+        # B_n/n! is the coefficient of x^n in x/(e^x - 1). The product of x/(e^x - 1) and (e^x - 1)/x is 1.
+        # Hence sum_{k<=n} B_k/(k! (n + 1 - k)!) = 0.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 

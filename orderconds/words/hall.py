@@ -1,9 +1,11 @@
-"""Hall bases of free Lie algebras, and the rewriting of brackets in these bases. The weight of a letter is a
-positive integer.
+"""Hall bases of free Lie algebras, and the rewriting of brackets in these bases.
 
-Basis elements are ordered by weight. Basis elements of equal weight are ordered as they are constructed. All
-letters are basis elements. Let x and y be basis elements with x < y. If y is a letter, then [x, y] is a basis
-element. If y is a bracket [u, v] with u <= x, then [x, y] is a basis element (M. Hall, Proc. AMS 1
+The weight of a letter is a positive integer. The weight of a bracket is the sum of the weights of its
+letters. Basis elements are ordered by weight. Among basis elements of equal weight, the letters come first.
+The brackets [x, y] follow, ordered by x and then by y.
+
+All letters are basis elements. Let x and y be basis elements with x < y. If y is a letter, then [x, y] is a
+basis element. If y is a bracket [u, v] with u <= x, then [x, y] is a basis element (M. Hall, Proc. AMS 1
 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are rewritten by antisymmetry
 and Jacobi's identity.
 """
@@ -117,10 +119,10 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # Let y = [u, v]. Since y is a basis element, u < v. Since [x, y] is not a basis element, x < u.
-            # Use Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends: the brackets
-            # [x, u] and [x, v] have lower weight. The other two brackets have the same weight, but both
-            # factors are greater than x.
+            # Let y = [u, v]. Then u < v, because y is a basis element, and x < u, because [x, y] is not. Use
+            # Jacobi's identity [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends: the brackets
+            # [x, u] and [x, v] have lower weight. In the outer brackets on the right, both factors are
+            # greater than x.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -85,8 +85,8 @@ def coordinates_from_values(
     The Lie element is a series of words. Each word denotes the product of its letters in the written order.
     ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
 
-    ``words`` contains Lyndon words in ascending order: either all Lyndon words of one weight, or all Lyndon
-    words that consist of the same letters with the same multiplicities. ``key`` returns the sort key of a
+    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters and the same
+    multiplicities of letters. The words are in ascending order. ``key`` returns the sort key of a
     letter. The function does not check that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
@@ -119,7 +119,7 @@ def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None)
     while rest:
         word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
-            raise ValueError(f"not a Lie element: {word} remains after subtracting bracketed Lyndon words")
+            raise ValueError(f"not a Lie element: the coefficients of {word} and Lyndon words disagree")
         coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return coordinates

@@ -22,7 +22,7 @@ from orderconds.words.lyndon import lyndon_words
 from orderconds.words.shuffle import Letter, Word
 
 Coordinates = dict[Word, Fraction]
-"""The coefficients of bracketed Lyndon words. Zero coefficients may be omitted."""
+"""The coefficients of bracketed Lyndon words. The coefficients of other Lyndon words are zero."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,8 @@ class LieSeries:
 
 @dataclass(frozen=True)
 class LieTerm:
-    """One term of a Lie series. ``bracket`` is a letter, or a pair (x, y) that denotes the bracket [x, y]."""
+    """One term of a Lie series: ``coefficient`` times ``bracket``. The bracket [x, y] is represented by the
+    pair (x, y), and a single letter by itself."""
 
     weight: int
     bracket: Bracket
@@ -112,8 +113,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return the function ``coordinates`` of a :class:`LieSeries`. ``value`` returns the coefficient of a
-    word in the series.
+    """Return the function ``coordinates`` of the :class:`LieSeries` with the functions ``letters`` and
+    ``weigh``. ``value`` returns the coefficient of a word in the series.
     """
 
     def coordinates(weight: int) -> Coordinates:
@@ -161,9 +162,10 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return the function ``coordinates`` of a series sum_k c_k ad_U^k X with numbers c_k.
+    """Return the function ``coordinates`` of the :class:`LieSeries` sum_k c_k ad_U^k X with numbers c_k.
 
-    U and X are letters with U < X. Hence the Lyndon words in the series are X, UX, UUX, and so on.
+    ``expand`` returns the words of the series up to a given length. U and X are letters with U < X. Hence the
+    Lyndon words in the series are X, UX, UUX, and so on.
     """
 
     def coordinates(weight: int) -> Coordinates:

@@ -58,6 +58,7 @@ def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
     """Divide a word into a non-increasing sequence of Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
+    ``key`` returns the sort key of a letter.
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']
