@@ -27,15 +27,15 @@ are exact flows of parts of the vector field.
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-This number converts operations to lines. The values 2, 3 and 5 give the same files in ``generated/``. Longer
-steps depend on the value. For example, the values 2, 3 and 5 give 471, 454 and 394 assignments in the step of
-cg:cg5 on dipole.
+This number converts operations to lines. The values 2, 3 and 5 give the same files in ``generated/``, but
+different code for longer steps. For the values 2, 3 and 5, the step of cg:cg5 on dipole has 471, 454 and
+394 assignments.
 """
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""A description of a tree. One function can compute all trees with equal keys."""
+"""A description of a tree. Trees with equal keys can share one outlined function."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees, and the key of the joined tree."""
@@ -46,7 +46,7 @@ class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
     ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
-    false, no outlined function may execute the assignment.
+    false, the assignment cannot be part of an outlined function.
     """
 
     assign: Assign
@@ -57,7 +57,7 @@ class Execution:
 
     @property
     def may_join(self) -> bool:
-        """True if an outlined function may execute this assignment."""
+        """True if this assignment can be part of an outlined function."""
         return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
@@ -100,7 +100,7 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of the block that contains it, or -1 outside blocks.
 
-        If ``joined`` is false, the assignment is not joined with others, because its results depend on more
+        If ``joined`` is false, the assignment is never outlined, because its results depend on values other
         than ``args``.
         """
         assign, args = self._from_the_whole(assign, args)
@@ -122,9 +122,8 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # An assignment whose result has several readers cannot be joined with a reader. For example, a step
-        # reads h xi, and also computes h xi/2 from h xi. If it computes h xi/2 from xi, then h xi has one
-        # reader less.
+        # An assignment can be joined with the reader of its result only if there is one reader. For example,
+        # y = h x is read by z = y/2 and by another assignment. With z = (h/2) x, y has only one reader.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -133,12 +132,13 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Return the assignments as trees. Trees are joined as long as this saves lines of emitted code."""
+        """Join the assignments into trees, as long as this saves lines of emitted code. Return the trees."""
         self._find_users()
-        # At the beginning each tree contains one assignment. ``owner`` maps each assignment to its tree.
+        # At the beginning each tree contains one assignment. The index of a tree is the index of its last
+        # assignment. ``owner`` maps each assignment to the index of its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
-        # Each round joins one kind of pair, so the number of trees decreases and the loop ends.
+        # Each round except the last joins at least one pair of trees, so the number of trees decreases.
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
             # A key is computed only once in a round, because the computation visits the whole tree.
@@ -150,11 +150,11 @@ class Trees:
                 # If only one assignment reads the results of a tree, this tree can be joined with the tree of
                 # the assignment.
                 user = self._only_user(i)
-                # ``owner`` contains only assignments that may be joined.
+                # Assignments that cannot be outlined are not in ``owner``.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The keys of two trees do not determine how these trees are connected. Therefore the key
-                    # of the pair also contains the key of the joined tree.
+                    # The result of the first tree can be any input of the second tree. Therefore the key of
+                    # a pair also contains the key of the joined tree.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # The choice is greedy: the pair that saves the most lines is joined first.
@@ -166,12 +166,11 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A tree is joined only once in a round.
+            # Joining two trees changes their keys. Therefore each tree is joined at most once in a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
                     continue
-                # A joined tree has a new key, so the keys of this round are no longer valid for it.
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
@@ -184,16 +183,16 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # One of the two trees may also occur outside these pairs. Then the function of this tree is still
-        # needed, and the function of the joined tree contains its lines again.
+        # If a tree also occurs outside these pairs, its own function is still needed. The function of the
+        # joined tree repeats the lines of this function.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one, which saves about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of code for assignment ``i``."""
-        # The number of lines hardly depends on the operands, so one estimate is used for all assignments with
-        # the same operation.
+        # The estimate for the first assignment with an operation name is used for all later assignments with
+        # this name.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -204,7 +203,7 @@ class Trees:
         return self._lines[name]
 
     def _join(self, a: Tree, b: Tree) -> Tree:
-        # Indices increase in the order of execution, so the sorted members form a valid order.
+        # Indices increase in the order of execution, so sorting gives a valid order.
         return Tree(sorted([*a.members, *b.members]))
 
     def _find_users(self) -> None:
@@ -214,10 +213,10 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # The statement reads ``v`` outside all trees. The entry None represents this reader.
+                    # The statement is not an assignment, so it belongs to no tree. It is recorded as None.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # The outputs of the program are also read outside all trees.
+            # Outputs are read outside the program. Such a reader is recorded as None.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -235,10 +234,10 @@ class Trees:
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
-        """Return the input variables of a tree, and for each member the positions of its arguments.
+        """Return the input variables of a tree, and the positions of the arguments of each assignment.
 
         The positions 0, 1, ... denote the input variables. The positions -1, -2, ... denote the results of
-        the members in order of execution.
+        the assignments in the order of execution.
         """
         targets: dict[Var, int] = {}
         given: dict[Var, int] = {}
@@ -247,25 +246,25 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Results have negative positions, because 0 is the position of the first input variable.
+                    # The sign distinguishes results from input variables.
                     places.append(-targets[v])
                 else:
                     # Input variables are numbered in the order in which they are first read.
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
             for v in self.executions[i].assign.targets:
-                # The first result has the position -1, so its number is 1.
+                # Counting starts at 1, because 0 is the position of the first input variable.
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the key of a tree. The key records which coefficients are equal, but not their values."""
+        """Return the key of a tree. The key does not contain the values of coefficients."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # The key must not contain the values of coefficients. The operation of a sum contains these
-            # values, so it is omitted. The kind distinguishes sums in the algebra from sums in its dual.
+            # The operation of a sum is omitted, because it contains the values of the coefficients. The kind
+            # of the result distinguishes sums in the Lie algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -312,7 +311,7 @@ class Trees:
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return a pair for each coefficient of a sum: a label and the power of h.
 
-    Equal coefficients have equal labels. The coefficient 1 has the label 0.
+    Equal coefficients have equal labels. The label 0 is reserved for the coefficient 1.
     """
     seen: dict[Coefficient, int] = {}
     # A coefficient 1 needs no product, and terms with equal coefficients need only one product. Therefore the

@@ -17,7 +17,7 @@ from codegen.ir.vector_calls import component, vector_function
 METHODS = {
     FIXED_POINT: "fixed point",
     NEWTON: "Newton's method",
-    SIMPLIFIED_NEWTON: "Newton's method with the matrix to first order in h",
+    SIMPLIFIED_NEWTON: "Newton's method with the Jacobian to first order in h",
 }
 """The names of the solvers of implicit equations in the headers of emitted files."""
 
@@ -105,7 +105,7 @@ class Beginning:
 class Iteration:
     """A loop that solves implicit equations, ready to print (see :class:`codegen.ir.kernel.Loop`).
 
-    - ``kept`` contains the names of assignments in the body that are read after the loop.
+    - ``kept`` contains the names that are assigned in the body and read after the loop.
     - ``matrix`` contains the entries of Newton's matrix, row by row.
     - ``newton`` contains the statements that compute this matrix.
 
@@ -129,7 +129,7 @@ Statement = Simple | Beginning | Iteration
 class Arrangement:
     """The statements and outputs of a step, ready to print.
 
-    ``repeated`` is the number of times that a step executes all statements.
+    A step executes all statements ``repeated`` times, once for each substep of a composition method.
     """
 
     statements: tuple[Statement, ...]
@@ -226,8 +226,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """Return the expressions of a statement that can share calls with other statements."""
     if isinstance(statement, Let):
         return [statement.value]
-    # A ``Start`` statement may be skipped at run time, so other statements cannot use the results of its
-    # calls. The calls in the body of a loop are not shared with the statements outside the loop.
+    # A ``Start`` statement can be skipped at run time, so other statements cannot use its calls. Of a loop,
+    # only the starting values are computed outside the loop.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -245,7 +245,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # If ``leading`` is true, Newton's matrix is computed before the loop. Otherwise the loop computes it.
+        # If ``leading`` is true, Newton's matrix is computed before the loop and reads no names of the body.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -275,10 +275,10 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block of statements: the step outside loops, or the body of a loop.
+    """Rewrites the expressions of one block of statements, for example the body of a loop.
 
     - ``known`` maps the id of each node to the expression that replaces the node.
-    - ``orders`` maps the id of each argument to the indices k of its Stumpff functions c_k.
+    - ``orders`` maps the id of each argument of Stumpff functions c_k to the sorted indices k.
     - ``pending`` contains new statements, which are placed before the next statement.
     """
 
@@ -293,16 +293,17 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Rewrite the assignments ``lets`` and the results ``values`` of a nested block, and return them."""
-        # A block can be skipped at run time. Therefore later statements do not read the names of the block.
+        # A block can be skipped at run time, so later statements do not read its names. Therefore ``kept`` is
+        # false.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a nested block or loop body. It can read all names defined before the block."""
-        # The dictionary ``known`` is copied, so that statements outside the block do not read names of the
-        # block. The dictionary ``taken`` is shared, so that all names of a kernel are different.
+        """Return the scope of a nested block. The block can read all names that are defined before it."""
+        # ``known`` is copied, because statements outside the block must not read names of the block. All
+        # scopes share ``taken``, because all names of a kernel must differ.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
@@ -319,11 +320,12 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        A result of a call already has a name. If ``kept`` is false, no assignment is added for such a result.
+        If the value is a result of a call, it already has a name. Then the assignment is omitted, unless
+        ``kept`` is true.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # A result of a call already has a name. Later expressions use this name in place of ``let.name``.
+        # Later expressions use the name of the result in place of ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -362,7 +364,7 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are the ids of the original arguments, but ``argument`` is rewritten.
+        # The keys of ``orders`` are ids of original arguments. The rewritten ``argument`` can differ.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -401,7 +403,7 @@ class _Scope:
         # Binary powering: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
-            # Each bit squares the result, and a bit 1 also multiplies it by the base.
+            # The result is squared for each bit. If the bit is 1, the square is multiplied by the base.
             if bit == "1":
                 result = space.mul(result, base)
         return result
@@ -415,7 +417,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # ``taken`` also contains a counter for each stem. The key of a counter contains a space, so it
+            # For example, the key ``p count`` counts the names p_1, p_2, ... This key contains a space, so it
             # differs from all names.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"

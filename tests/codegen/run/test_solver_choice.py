@@ -176,7 +176,7 @@ def test_figures_of_other_solvers_are_in_the_explanation_alone():
     assert [line.partition(":")[0] for line in choice.compared] == [
         "fixed point",
         "Newton's method",
-        "Newton's method with the matrix to first order in h",
+        "Newton's method with the Jacobian to first order in h",
     ]
     told = explanation(made)
     for line in choice.compared:
