@@ -160,7 +160,7 @@ static inline void dipole_vcf_cf4_stumpff_23_far(double z, double *c2, double *c
         *c3 = dipole_vcf_cf4_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -191,7 +191,7 @@ static inline void dipole_vcf_cf4_stumpff_12_far(double z, double *c1, double *c
         *c2 = dipole_vcf_cf4_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -209,7 +209,7 @@ static inline void dipole_vcf_cf4_stumpff_123_far(double z, double *c1, double *
         *c3 = dipole_vcf_cf4_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -324,8 +324,8 @@ static int dipole_vcf_cf4_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
- * first, and inverses of Newton's matrices.
+ * Data that a step stores for the next step of the run: solutions of the implicit equations, the
+ * latest first, and inverse matrices of Newton's method.
  */
 struct dipole_vcf_cf4_memory {
     size_t known; /* number of stored solutions */
@@ -333,13 +333,13 @@ struct dipole_vcf_cf4_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[12]; /* initial guess for the next step */
-    double values[32][12]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
+    double values[32][12]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
+    size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[144];
 };
 
-/* Backward differences: coefficients of order k in row k, latest solution first. */
+/* Row k: coefficients of the backward difference of order k, latest solution first. */
 static const double dipole_vcf_cf4_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -384,9 +384,9 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
- * of the latest solution is added last, so all other terms can be summed before that solution is
- * known.
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
+ * latest solution is added last. The processor can then add the other terms before the latest solution
+ * is known.
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -449,13 +449,13 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 }
 
 /*
- * Store a solution. The guess for the next solution is the value of the polynomial through the latest
- * solutions, one step later.
+ * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
+ * is the guess for the next step.
  */
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
 {
-    /* with fewer than three stored solutions, the guess is not tested */
+    /* the guess is tested only if at least three solutions are stored */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -483,7 +483,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
+    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcf_cf4_difference_size(memory, memory->degree);
         int grows = 0;
@@ -500,7 +500,7 @@ static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
             }
         }
     }
-    /* choose the guess so that the backward difference of order degree + 1 is zero */
+    /* the guess for which the backward difference of order degree + 1 is zero */
     dipole_vcf_cf4_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -1319,7 +1319,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -1345,9 +1345,9 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
- * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
- * Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
+ * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
+ * tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int dipole_vcf_cf4_continued(double state[static 12], double h,
     struct dipole_vcf_cf4_memory *memory, dipole_vcf_cf4_statistics *statistics)
@@ -1443,8 +1443,8 @@ static inline void dipole_vcf_cf4_to_space(const double state[static 12],
 }
 
 /*
- * Begin: moving = the state with its momentum in the body frame, and before = this momentum, converted
- * back to the space frame.
+ * Begin: moving = the state with the body momentum. before = this body momentum, converted back to the
+ * space frame.
  */
 static void dipole_vcf_cf4_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -1456,8 +1456,8 @@ static void dipole_vcf_cf4_enter_body(const double state[static 12],
 }
 
 /*
- * End: update the state. Its new momentum is its momentum at the beginning of the run, plus the
- * increase of the space momentum during the run.
+ * End: update the state. The increase of the space momentum during the run is added to the old space
+ * momentum.
  */
 static int dipole_vcf_cf4_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

@@ -149,7 +149,7 @@ static inline void dipole_vcg_midpoint_stumpff_12_far(double z, double *c1, doub
         *c2 = dipole_vcg_midpoint_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -167,7 +167,7 @@ static inline void dipole_vcg_midpoint_stumpff_123_far(double z, double *c1, dou
         *c3 = dipole_vcg_midpoint_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -225,8 +225,8 @@ static int dipole_vcg_midpoint_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
- * first, and inverses of Newton's matrices.
+ * Data that a step stores for the next step of the run: solutions of the implicit equations, the
+ * latest first, and inverse matrices of Newton's method.
  */
 struct dipole_vcg_midpoint_memory {
     size_t known; /* number of stored solutions */
@@ -234,13 +234,13 @@ struct dipole_vcg_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
+    double values[32][3]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
+    size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
 };
 
-/* Backward differences: coefficients of order k in row k, latest solution first. */
+/* Row k: coefficients of the backward difference of order k, latest solution first. */
 static const double dipole_vcg_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -285,9 +285,9 @@ static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *sta
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
- * of the latest solution is added last, so all other terms can be summed before that solution is
- * known.
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
+ * latest solution is added last. The processor can then add the other terms before the latest solution
+ * is known.
  */
 static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -323,13 +323,13 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 }
 
 /*
- * Store a solution. The guess for the next solution is the value of the polynomial through the latest
- * solutions, one step later.
+ * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
+ * is the guess for the next step.
  */
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is not tested */
+    /* the guess is tested only if at least three solutions are stored */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -348,7 +348,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
+    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -365,7 +365,7 @@ static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memor
             }
         }
     }
-    /* choose the guess so that the backward difference of order degree + 1 is zero */
+    /* the guess for which the backward difference of order degree + 1 is zero */
     dipole_vcg_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -553,7 +553,7 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -579,9 +579,9 @@ static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
 }
 
 /*
- * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
- * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
- * Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
+ * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
+ * tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int dipole_vcg_midpoint_continued(double state[static 12], double h,
     struct dipole_vcg_midpoint_memory *memory, dipole_vcg_midpoint_statistics *statistics)
@@ -678,8 +678,8 @@ static inline void dipole_vcg_midpoint_to_space(const double state[static 12],
 }
 
 /*
- * Begin: moving = the state with its momentum in the body frame, and before = this momentum, converted
- * back to the space frame.
+ * Begin: moving = the state with the body momentum. before = this body momentum, converted back to the
+ * space frame.
  */
 static void dipole_vcg_midpoint_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -691,8 +691,8 @@ static void dipole_vcg_midpoint_enter_body(const double state[static 12],
 }
 
 /*
- * End: update the state. Its new momentum is its momentum at the beginning of the run, plus the
- * increase of the space momentum during the run.
+ * End: update the state. The increase of the space momentum during the run is added to the old space
+ * momentum.
  */
 static int dipole_vcg_midpoint_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

@@ -19,7 +19,7 @@ enum {
 /* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
-    size_t most; /* largest number of sweeps of one block in one step */
+    size_t most; /* largest number of sweeps of one block in one step or substep */
     size_t failed; /* number of the block that failed, counted from 1; 0 if none */
     size_t matrices; /* number of Newton matrices that were computed */
 } dipole_vcg_midpoint_statistics;

@@ -8,15 +8,15 @@ order:      4, certificate: exact (the residuals of all order conditions up to t
 digits:     with the coefficients rounded to double precision, the residuals of the
             order conditions are at most 2.3e-16
 scene:      Dipole on a stick, T*SO(3), group SO(3)
-substeps:   3 calls of one function, with step sizes 1.35121, -1.70241, 1.35121
-            times h
+substeps:   3 calls of one function; the step sizes are these multiples of h:
+            1.35121, -1.70241, 1.35121
 solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3
             matrices a step, measured over the first 20 steps of h = 0.005
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
-            derivatives of H, 10 exponentials, 12 products, 16 sums: the step
-            repeats a shorter step
+            derivatives of H, 10 exponentials, 12 products, 16 sums: the step is a
+            sequence of substeps
             3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             1 Legendre transform, 1 sum: equal values are computed once
             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends
@@ -80,7 +80,7 @@ class Statistics:
     def clear(self):
         """Set all fields to zero."""
         self.sweeps = [0] * 1  # by block: the equations of xi1, n1
-        self.most = 0  # largest number of sweeps of one block in one step
+        self.most = 0  # largest number of sweeps of one block in one step or substep
         self.failed = 0  # number of the block that failed, counted from 1; 0 if none
         self.matrices = 0  # number of Newton matrices that were computed
 
@@ -90,8 +90,8 @@ class Statistics:
 
 
 class _Memory:
-    """Data that one step of a run stores for the next: solutions of the implicit
-    equations, the latest first, and inverses of Newton's matrices.
+    """Data that a step stores for the next step of the run: solutions of the
+    implicit equations, the latest first, and inverse matrices of Newton's method.
     """
 
     def __init__(self):
@@ -104,9 +104,9 @@ class _Memory:
         self.degree = 0  # degree of the extrapolation
         self.place = 0  # row of the latest solution
         self.guess = [0.0] * 3  # initial guess for the next step
-        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; a solution is in two rows, so the latest solutions are contiguous
+        self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; each solution is in two rows, and the latest solutions are contiguous
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the stored inverse matrix; 0 if none is stored
+        self.age_1 = 0  # age of the stored inverse of the Newton matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 9
 
 
@@ -197,7 +197,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -207,7 +207,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -230,7 +230,7 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-# Backward differences: coefficients of order k in row k, latest solution first.
+# Row k: coefficients of the backward difference of order k, latest solution first.
 differences = (
     (
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
@@ -325,8 +325,8 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The term of the latest solution is added last, so all other terms
-    can be summed before that solution is known.
+    are omitted. The latest solution is added last. The processor can then add the
+    other terms before the latest solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -359,10 +359,10 @@ def _difference_size(memory, order):
 
 
 def _remember(memory, solution):
-    """Store a solution. The guess for the next solution is the value of the
-    polynomial through the latest solutions, one step later.
+    """Store a solution. The polynomial through the latest solutions is extrapolated
+    by one step. Its value is the guess for the next step.
     """
-    # with fewer than three stored solutions, the guess is not tested
+    # the guess is tested only if at least three solutions are stored
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -378,7 +378,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree of the extrapolation; with a full ring buffer, only once in 8
+    # adapt the degree of the extrapolation; if the ring buffer is full, once in 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -392,7 +392,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the guess so that the backward difference of order degree + 1 is zero
+    # the guess for which the backward difference of order degree + 1 is zero
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -577,10 +577,10 @@ def _substep(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a substep whose equations did not converge. The first attempt ignores
-    the solutions of earlier steps, because they are bad initial guesses if the
-    motion has changed. Then shorter steps are tried. Each solution is the initial
-    guess for a longer step (continuation in h).
+    """Repeat a substep that failed. The first attempt ignores the solutions of
+    earlier steps, because they are bad initial guesses if the motion has changed.
+    If the first attempt fails, shorter steps are tried. Each solution is the
+    initial guess for a longer step (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -667,8 +667,8 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Begin: moving = the state with its momentum in the body frame, and before =
-    this momentum, converted back to the space frame.
+    """Begin: moving = the state with the body momentum. before = this body momentum,
+    converted back to the space frame.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]
@@ -677,8 +677,8 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """End: update the state. Its new momentum is its momentum at the beginning of
-    the run, plus the increase of the space momentum during the run.
+    """End: update the state. The increase of the space momentum during the run is
+    added to the old space momentum.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)

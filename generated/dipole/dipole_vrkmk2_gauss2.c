@@ -160,7 +160,7 @@ static inline void dipole_vrkmk2_gauss2_stumpff_23_far(double z, double *c2, dou
         *c3 = dipole_vrkmk2_gauss2_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -191,7 +191,7 @@ static inline void dipole_vrkmk2_gauss2_stumpff_12_far(double z, double *c1, dou
         *c2 = dipole_vrkmk2_gauss2_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -209,7 +209,7 @@ static inline void dipole_vrkmk2_gauss2_stumpff_123_far(double z, double *c1, do
         *c3 = dipole_vrkmk2_gauss2_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -318,8 +318,8 @@ static int dipole_vrkmk2_gauss2_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
- * first, and inverses of Newton's matrices.
+ * Data that a step stores for the next step of the run: solutions of the implicit equations, the
+ * latest first, and inverse matrices of Newton's method.
  */
 struct dipole_vrkmk2_gauss2_memory {
     size_t known; /* number of stored solutions */
@@ -327,13 +327,13 @@ struct dipole_vrkmk2_gauss2_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[6]; /* initial guess for the next step */
-    double values[32][6]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
+    double values[32][6]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
+    size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[36];
 };
 
-/* Backward differences: coefficients of order k in row k, latest solution first. */
+/* Row k: coefficients of the backward difference of order k, latest solution first. */
 static const double dipole_vrkmk2_gauss2_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -378,9 +378,9 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
- * of the latest solution is added last, so all other terms can be summed before that solution is
- * known.
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
+ * latest solution is added last. The processor can then add the other terms before the latest solution
+ * is known.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -425,13 +425,13 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 }
 
 /*
- * Store a solution. The guess for the next solution is the value of the polynomial through the latest
- * solutions, one step later.
+ * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
+ * is the guess for the next step.
  */
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is not tested */
+    /* the guess is tested only if at least three solutions are stored */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -453,7 +453,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
+    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
@@ -470,7 +470,7 @@ static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_mem
             }
         }
     }
-    /* choose the guess so that the backward difference of order degree + 1 is zero */
+    /* the guess for which the backward difference of order degree + 1 is zero */
     dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -859,7 +859,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -884,9 +884,9 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
- * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
- * Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
+ * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
+ * tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
@@ -983,8 +983,8 @@ static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
 }
 
 /*
- * Begin: moving = the state with its momentum in the body frame, and before = this momentum, converted
- * back to the space frame.
+ * Begin: moving = the state with the body momentum. before = this body momentum, converted back to the
+ * space frame.
  */
 static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
     double moving[static 12], double before[static 3])
@@ -996,8 +996,8 @@ static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
 }
 
 /*
- * End: update the state. Its new momentum is its momentum at the beginning of the run, plus the
- * increase of the space momentum during the run.
+ * End: update the state. The increase of the space momentum during the run is added to the old space
+ * momentum.
  */
 static int dipole_vrkmk2_gauss2_leave_body(const double moving[static 12],
     const double before[static 3], double state[static 12])

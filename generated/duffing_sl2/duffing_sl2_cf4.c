@@ -113,7 +113,7 @@ static double duffing_sl2_cf4_stumpff_1_far(double z)
     if (z <= 1.0) {
         return duffing_sl2_cf4_stumpff_series_1(z);
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double s = sqrt(z <= 65536.0 ? z : (double)NAN);
     return sin(s) / s;
 }
@@ -133,7 +133,7 @@ static double duffing_sl2_cf4_stumpff_0_far(double z)
     if (z <= 1.0) {
         return duffing_sl2_cf4_stumpff_series_0(z);
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double s = sqrt(z <= 65536.0 ? z : (double)NAN);
     return cos(s);
 }
@@ -167,7 +167,7 @@ static inline double duffing_sl2_cf4_signed_stumpff0(double z)
     return cosh(r);
 }
 
-/* The loop of a run. */
+/* The loop over the steps of a run. */
 static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed)
 {
@@ -220,7 +220,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
         const double w26 = duffing_sl2_cf4_signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

@@ -115,7 +115,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     s = sqrt(z if z <= 65536.0 else float("nan"))
     return sin(s) / s
 
@@ -133,7 +133,7 @@ def _stumpff_0_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s)."""
     if z <= 1.0:
         return _stumpff_series_0(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     s = sqrt(z if z <= 65536.0 else float("nan"))
     return cos(s)
 
@@ -164,7 +164,7 @@ def signed_stumpff0(z):
 
 
 def _loop(state, h, steps, trajectory, stride, completed):
-    """The loop of a run."""
+    """The loop over the steps of a run."""
     status = OK
     step = 0
     recording = stride > 0 and trajectory is not None

@@ -120,7 +120,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -297,7 +297,7 @@ def _advance(state, h, lead_h):
 
 
 def _begin(state, h):
-    """First flow of a step, if the step before does not include it."""
+    """Apply the first flow of a step, unless the previous step includes it."""
     try:
         g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
         new_g00 = g00
@@ -321,7 +321,7 @@ def _begin(state, h):
 
 
 def _finish(state, elapsed_h):
-    """Flows that commute with all other flows, applied once for many steps."""
+    """Apply the flows that commute with all other flows."""
     try:
         g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
         w1 = (g01 * mu0 + g11 * mu1 + g21 * mu2) * (2.0676923076923077 * elapsed_h)
@@ -350,7 +350,7 @@ def _finish(state, elapsed_h):
 
 
 def _complete_step(state, h):
-    """One complete step: no flow is deferred to a later step."""
+    """Make one step. No flow is deferred to a later step."""
     if not isfinite(h):
         return BAD_STEP
     if not all(map(isfinite, state)):

@@ -119,7 +119,7 @@ static void fast_heavy_top_splitting_blanes_moan_rkn6a_stumpff_12_far(double z, 
         *c2 = fast_heavy_top_splitting_blanes_moan_rkn6a_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -540,7 +540,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_advance(double sta
     state[11] = new_mu2;
 }
 
-/* First flow of a step, if the step before does not include it. */
+/* Apply the first flow of a step, unless the previous step includes it. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_begin(double state[static 12],
     double h)
 {
@@ -592,7 +592,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_begin(double state
     state[11] = new_mu2;
 }
 
-/* Flows that commute with all other flows, applied once for many steps. */
+/* Apply the flows that commute with all other flows. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_finish(double state[static 12],
     double elapsed_h)
 {
@@ -640,7 +640,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn6a_finish(double stat
     state[11] = new_mu2;
 }
 
-/* One complete step: no flow is deferred to a later step. */
+/* Make one step. No flow is deferred to a later step. */
 static int fast_heavy_top_splitting_blanes_moan_rkn6a_complete_step(double state[static 12],
     double h)
 {

@@ -114,7 +114,7 @@ static void free_rigid_body_cf4_stumpff_12_far(double z, double *c1, double *c2)
         *c2 = free_rigid_body_cf4_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 65536.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -137,7 +137,7 @@ static inline void free_rigid_body_cf4_stumpff_12(double z, double *c1, double *
     }
 }
 
-/* The loop of a run. */
+/* The loop over the steps of a run. */
 static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed)
 {
@@ -229,7 +229,7 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w60 - (w68 * c1_5 + (w62 * w70 + w63 * w71) * c2_5);
         const double new_m1 = w71 * c1_5 - (w63 * w68 + w61 * w70) * c2_5 + w67;
         const double new_m2 = w70 * c1_5 + (w61 * w71 - w62 * w68) * c2_5 + w66;
-        /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

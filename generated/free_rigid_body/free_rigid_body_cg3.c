@@ -113,7 +113,7 @@ static void free_rigid_body_cg3_stumpff_12_far(double z, double *c1, double *c2)
         *c2 = free_rigid_body_cg3_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 16777216.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -136,7 +136,7 @@ static inline void free_rigid_body_cg3_stumpff_12(double z, double *c1, double *
     }
 }
 
-/* The loop of a run. */
+/* The loop over the steps of a run. */
 static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed)
 {
@@ -226,7 +226,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w34 - (w63 * c1_6 + (w57 * w65 + w58 * w66) * c2_6);
         const double new_m1 = w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6 + w62;
         const double new_m2 = w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6 + w61;
-        /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

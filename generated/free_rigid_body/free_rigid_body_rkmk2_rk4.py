@@ -116,7 +116,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 65536.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -132,7 +132,7 @@ def _stumpff_12(z):
 
 
 def _loop(state, h, steps, trajectory, stride, completed):
-    """The loop of a run."""
+    """The loop over the steps of a run."""
     status = OK
     step = 0
     recording = stride > 0 and trajectory is not None

@@ -115,7 +115,7 @@ static void free_rigid_body_rkmk_rk4_stumpff_12_far(double z, double *c1, double
         *c2 = free_rigid_body_rkmk_rk4_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 65536.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -138,7 +138,7 @@ static inline void free_rigid_body_rkmk_rk4_stumpff_12(double z, double *c1, dou
     }
 }
 
-/* The loop of a run. */
+/* The loop over the steps of a run. */
 static int free_rigid_body_rkmk_rk4_loop(double state[static 3], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed)
 {
@@ -222,7 +222,7 @@ static int free_rigid_body_rkmk_rk4_loop(double state[static 3], double h, size_
         const double new_m0 = w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4 + m0;
         const double new_m1 = w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4 + m1;
         const double new_m2 = w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4 + m2;
-        /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

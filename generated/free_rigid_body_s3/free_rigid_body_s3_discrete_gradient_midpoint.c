@@ -181,7 +181,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23_far(
         *c3 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -212,7 +212,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01_far(
         *c1 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_1(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double s = sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double ratio = sin(s) / s;
     *c0 = cos(s);
@@ -266,8 +266,8 @@ static int free_rigid_body_s3_discrete_gradient_midpoint_all_finite(const double
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
- * first, and inverses of Newton's matrices.
+ * Data that a step stores for the next step of the run: solutions of the implicit equations, the
+ * latest first, and inverse matrices of Newton's method.
  */
 struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t known; /* number of stored solutions */
@@ -275,13 +275,13 @@ struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[3]; /* initial guess for the next step */
-    double values[32][3]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
+    double values[32][3]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
+    size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[9];
 };
 
-/* Backward differences: coefficients of order k in row k, latest solution first. */
+/* Row k: coefficients of the backward difference of order k, latest solution first. */
 static const double free_rigid_body_s3_discrete_gradient_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -326,9 +326,9 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
- * of the latest solution is added last, so all other terms can be summed before that solution is
- * known.
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
+ * latest solution is added last. The processor can then add the other terms before the latest solution
+ * is known.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -364,13 +364,13 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 }
 
 /*
- * Store a solution. The guess for the next solution is the value of the polynomial through the latest
- * solutions, one step later.
+ * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
+ * is the guess for the next step.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is not tested */
+    /* the guess is tested only if at least three solutions are stored */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -389,7 +389,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
+    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
             memory->degree);
@@ -409,7 +409,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct
             }
         }
     }
-    /* choose the guess so that the backward difference of order degree + 1 is zero */
+    /* the guess for which the backward difference of order degree + 1 is zero */
     free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
         -1.0, memory->guess);
 }
@@ -1055,7 +1055,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
@@ -1068,9 +1068,9 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
- * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
- * Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
+ * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
+ * tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,

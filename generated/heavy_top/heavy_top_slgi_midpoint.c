@@ -147,7 +147,7 @@ static inline void heavy_top_slgi_midpoint_stumpff_23_far(double z, double *c2, 
         *c3 = heavy_top_slgi_midpoint_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -176,7 +176,7 @@ static inline double heavy_top_slgi_midpoint_stumpff_1_far(double z)
     if (z <= 1.0) {
         return heavy_top_slgi_midpoint_stumpff_series_1(z);
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double s = sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     return sin(s) / s;
 }
@@ -189,7 +189,7 @@ static inline void heavy_top_slgi_midpoint_stumpff_12_far(double z, double *c1, 
         *c2 = heavy_top_slgi_midpoint_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -207,7 +207,7 @@ static inline void heavy_top_slgi_midpoint_stumpff_123_far(double z, double *c1,
         *c3 = heavy_top_slgi_midpoint_stumpff_series_3(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -368,8 +368,8 @@ static int heavy_top_slgi_midpoint_all_finite(const double *x, size_t n)
 }
 
 /*
- * Data that one step of a run stores for the next: solutions of the implicit equations, the latest
- * first, and inverses of Newton's matrices.
+ * Data that a step stores for the next step of the run: solutions of the implicit equations, the
+ * latest first, and inverse matrices of Newton's method.
  */
 struct heavy_top_slgi_midpoint_memory {
     size_t known; /* number of stored solutions */
@@ -377,13 +377,13 @@ struct heavy_top_slgi_midpoint_memory {
     size_t degree; /* degree of the extrapolation */
     size_t place; /* row of the latest solution */
     double guess[6]; /* initial guess for the next step */
-    double values[32][6]; /* ring buffer; a solution is in two rows, so the latest solutions are contiguous */
+    double values[32][6]; /* ring buffer; each solution is in two rows, and the latest solutions are contiguous */
     double rate_1;
-    size_t age_1; /* age of the stored inverse matrix; 0 if none is stored */
+    size_t age_1; /* age of the stored inverse of the Newton matrix; 0 if none is stored */
     double inverse_1[36];
 };
 
-/* Backward differences: coefficients of order k in row k, latest solution first. */
+/* Row k: coefficients of the backward difference of order k, latest solution first. */
 static const double heavy_top_slgi_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -428,9 +428,9 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The term
- * of the latest solution is added last, so all other terms can be summed before that solution is
- * known.
+ * A backward difference, multiplied by 'sign'. Terms with an index below 'first' are omitted. The
+ * latest solution is added last. The processor can then add the other terms before the latest solution
+ * is known.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -475,13 +475,13 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 }
 
 /*
- * Store a solution. The guess for the next solution is the value of the polynomial through the latest
- * solutions, one step later.
+ * Store a solution. The polynomial through the latest solutions is extrapolated by one step. Its value
+ * is the guess for the next step.
  */
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is not tested */
+    /* the guess is tested only if at least three solutions are stored */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -503,7 +503,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
     if (memory->known < 16) {
         memory->known++;
     }
-    /* adapt the degree of the extrapolation; with a full ring buffer, only once in 8 steps */
+    /* adapt the degree of the extrapolation; if the ring buffer is full, once in 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
@@ -520,7 +520,7 @@ static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoi
             }
         }
     }
-    /* choose the guess so that the backward difference of order degree + 1 is zero */
+    /* the guess for which the backward difference of order degree + 1 is zero */
     heavy_top_slgi_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
@@ -855,7 +855,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+    /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -880,9 +880,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
 }
 
 /*
- * Repeat a step whose equations did not converge. The first attempt ignores the solutions of earlier
- * steps, because they are bad initial guesses if the motion has changed. Then shorter steps are tried.
- * Each solution is the initial guess for a longer step (continuation in h).
+ * Repeat a step that failed. The first attempt ignores the solutions of earlier steps, because they
+ * are bad initial guesses if the motion has changed. If the first attempt fails, shorter steps are
+ * tried. Each solution is the initial guess for a longer step (continuation in h).
  */
 static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
     struct heavy_top_slgi_midpoint_memory *memory,

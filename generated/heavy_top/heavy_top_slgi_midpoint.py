@@ -65,7 +65,7 @@ class Statistics:
     def clear(self):
         """Set all fields to zero."""
         self.sweeps = [0] * 1  # by block: the equations of xi1, n1
-        self.most = 0  # largest number of sweeps of one block in one step
+        self.most = 0  # largest number of sweeps of one block in one step or substep
         self.failed = 0  # number of the block that failed, counted from 1; 0 if none
         self.matrices = 0  # number of Newton matrices that were computed
 
@@ -75,8 +75,8 @@ class Statistics:
 
 
 class _Memory:
-    """Data that one step of a run stores for the next: solutions of the implicit
-    equations, the latest first, and inverses of Newton's matrices.
+    """Data that a step stores for the next step of the run: solutions of the
+    implicit equations, the latest first, and inverse matrices of Newton's method.
     """
 
     def __init__(self):
@@ -91,7 +91,7 @@ class _Memory:
         self.guess = [0.0] * 6  # initial guess for the next step
         self.values = [[0.0] * 6 for _ in range(32)]
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the stored inverse matrix; 0 if none is stored
+        self.age_1 = 0  # age of the stored inverse of the Newton matrix; 0 if none is stored
         self.inverse_1 = [0.0] * 36
 
 
@@ -191,7 +191,7 @@ def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -211,7 +211,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     s = sqrt(z if z <= 4398046511104.0 else float("nan"))
     return sin(s) / s
 
@@ -220,7 +220,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -230,7 +230,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
-    # NaN if the angle is so large that no digit of the result is correct
+    # NaN if the angle is too large for an accurate result
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -318,7 +318,7 @@ def invert(n, matrix):
     return 1
 
 
-# Backward differences: coefficients of order k in row k, latest solution first.
+# Row k: coefficients of the backward difference of order k, latest solution first.
 differences = (
     (
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
@@ -409,8 +409,8 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """A backward difference, multiplied by 'sign'. Terms with an index below 'first'
-    are omitted. The term of the latest solution is added last, so all other terms
-    can be summed before that solution is known.
+    are omitted. The latest solution is added last. The processor can then add the
+    other terms before the latest solution is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -455,10 +455,10 @@ def _difference_size(memory, order):
 
 
 def _remember(memory, solution):
-    """Store a solution. The guess for the next solution is the value of the
-    polynomial through the latest solutions, one step later.
+    """Store a solution. The polynomial through the latest solutions is extrapolated
+    by one step. Its value is the guess for the next step.
     """
-    # with fewer than three stored solutions, the guess is not tested
+    # the guess is tested only if at least three solutions are stored
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -477,7 +477,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # adapt the degree of the extrapolation; with a full ring buffer, only once in 8
+    # adapt the degree of the extrapolation; if the ring buffer is full, once in 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -491,7 +491,7 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # choose the guess so that the backward difference of order degree + 1 is zero
+    # the guess for which the backward difference of order degree + 1 is zero
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
@@ -838,10 +838,10 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Repeat a step whose equations did not converge. The first attempt ignores the
-    solutions of earlier steps, because they are bad initial guesses if the motion
-    has changed. Then shorter steps are tried. Each solution is the initial guess
-    for a longer step (continuation in h).
+    """Repeat a step that failed. The first attempt ignores the solutions of earlier
+    steps, because they are bad initial guesses if the motion has changed. If the
+    first attempt fails, shorter steps are tried. Each solution is the initial
+    guess for a longer step (continuation in h).
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE

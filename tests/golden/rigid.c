@@ -103,7 +103,7 @@ static void rigid_stumpff_12_far(double z, double *c1, double *c2)
         *c2 = rigid_stumpff_series_2(z);
         return;
     }
-    /* NaN if the angle is so large that no digit of the result is correct */
+    /* NaN if the angle is too large for an accurate result */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -126,7 +126,7 @@ static inline void rigid_stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-/* The loop of a run. */
+/* The loop over the steps of a run. */
 static int rigid_loop(double state[static 3], double h, size_t steps, double *trajectory,
     size_t stride, size_t *completed)
 {
@@ -156,7 +156,7 @@ static int rigid_loop(double state[static 3], double h, size_t steps, double *tr
         const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
         const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
         const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-        /* If the sum is finite, all values x are finite. If it overflows, each x - x must be 0. */
+        /* All values x are finite if their sum is finite, or if all differences x - x are 0. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
