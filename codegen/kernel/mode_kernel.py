@@ -10,8 +10,8 @@ is a linear combination of values of N. The coefficients of b are functions of z
 - Let a be nonzero, x = h (a, b) and beta = a z/(exp(a z) - 1). Then dexp^{-1}_x (c, d) is the pair
   (c, beta d + (1 - beta) c b/a).
 
-Let ad be the bracket with x. The third formula holds because ad^2 = a z ad. Therefore every power series f
-satisfies f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
+The third formula is the case f(w) = w/(exp(w) - 1) of a rule for power series f. Let ad be the linear map
+y -> [x, y]. Then ad^2 = a z ad, so f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ class ModeMethod:
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
     """Compile ``method`` for ``scene``. Each compiler pass is verified on a model problem with one mode.
 
-    MethodError is raised for implicit methods, and for methods with unsupported operations.
+    MethodError is raised for implicit methods, and for operations that semilinear scenes do not support.
     """
     model = model_of(scene)
     problem, lowered = problem_for(model, method), lower(model, method)
@@ -123,7 +123,7 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
         raise _refused(scene, f"the implicit stages of {method.label}")
     assert scene.semilinear is not None
     step = _Execution(scene, scene.semilinear).step(program)
-    # The state is a single function of space.
+    # The state is a single function of space, so the scene has one state block.
     (block,) = scene.state
     about = "values at the points x = i length/n, i = 0, ..., n - 1"
     state = (StateBlock(block.name, block.symbols, about),)
@@ -147,7 +147,7 @@ def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
     for factor, terms in parts:
         for source, multiplier in terms.items():
             total[source] = total.get(source, Multiplier()) + factor * multiplier
-    # The sources are sorted, so equal sums give equal code. Zero coefficients are left out.
+    # The keys are sorted, so equal sums give equal code. Zero coefficients are left out.
     return {source: m for source, m in sorted(total.items()) if m.terms}
 
 
@@ -159,7 +159,7 @@ def _constant(value: Number) -> Multiplier:
 class _Execution:
     """Executes the program of a step symbolically on one Fourier mode.
 
-    Every coefficient is a formula in z = h lambda. These formulas are the same for all modes.
+    Every coefficient is a formula in z = h lambda, so the result is valid for all modes.
     """
 
     scene: Problem
@@ -219,7 +219,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # Zero has no definite power of h. The power 1 is chosen.
+                # The power of h is arbitrary for a zero element. Here it is 1.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -251,12 +251,12 @@ class _Execution:
 
     def _combination(self, assign: Assign) -> _Element:
         parts = [(c, self.elements[v]) for c, v in assign.terms]
-        # Zero elements have no definite power of h, so they are removed.
+        # The power of h is arbitrary for zero elements, so they are removed.
         parts = [(c, x) for c, x in parts if not x.is_zero]
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All nonzero elements of the sum have the same power of h.
+        # The sum is one ``_Element``, so all nonzero terms must have the same power of h.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -267,7 +267,7 @@ class _Execution:
         """Record an evaluation of N at ``point`` and ``time``. Return the value of the vector field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The new value of N is N_j. The vector field u -> lambda u + N_j is denoted by the pair (1, N_j).
+        # Let N_j be the new value of N. The pair (1, N_j) denotes the vector field u -> lambda u + N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -283,15 +283,15 @@ class _Execution:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
-        # For x = (a, b) and y = (c, d), the bracket is (0, lambda (a d - c b)). The factor lambda = z/h
-        # reduces the power of h by one.
+        # The bracket of (a, b) and (c, d) is (0, lambda (a d - c b)). Because lambda = z/h, the power of h
+        # decreases by one.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
         return _Element(ZERO, b, x.power + y.power - 1)
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
         assert x.is_zero or x.power == 1
-        # ``power`` is ad_x^k y. The coefficient of this term is B_k/k!, where B_k is a Bernoulli number.
+        # In the loop, ``power`` is ad_x^k y and ``factor`` is B_k/k!, where B_k is a Bernoulli number.
         total, power = y, y
         for k in range(1, last_term(order) + 1):
             power = self._bracket(x, power)
@@ -308,7 +308,7 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # If x = h (0, b), only two terms of the series are nonzero: y - [x, y]/2.
+            # For x = h (0, b), the series of dexp^{-1}_x y ends after two terms: y - [x, y]/2.
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
@@ -319,17 +319,17 @@ class _Execution:
     def _terms(self, point: Sum) -> tuple[Term, ...]:
         """Return a linear combination as a sequence of terms.
 
-        Each term contains the index of a table. This table contains the coefficient of the term for each
-        mode. The coefficient 1 has no table.
+        Each term contains the index of a table with the coefficients for all modes. If the coefficient is 1,
+        the index is None.
         """
-        # The coefficient of a value of N contains h. The coefficient of the old state does not.
+        # As in a ``_Map``, the values of N have a factor h. The old state has no factor h.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:
-        # The factor 1 needs no table and no product.
+        # A term with the coefficient 1 needs no product and therefore no table.
         if multiplier.is_one and not power:
             return None
-        # Equal multipliers share one table, so that this table is computed and stored only once.
+        # Equal multipliers share one table, which saves time and memory.
         key = (multiplier.key, power)
         if key not in self.tables:
             self.tables[key] = len(self.listed)

@@ -1,9 +1,9 @@
 """Matrices 1 - g'(u) of Newton's method for equations u = g(u).
 
 A matrix is either exact or expanded to first order in h. The expansion is cheap, because it contains only
-derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each Newton iteration multiplies
-the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are inverted by
-cofactors.
+derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each iteration with this matrix
+multiplies the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are inverted
+by cofactors.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.ir.jacobian import jacobian
 SMALL = 3
 """The largest number of rows of a matrix whose inverse is computed from cofactors.
 
-For larger matrices, Gaussian elimination takes fewer operations. A 3 x 3 inverse has 9 cofactors of 3
-operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations each.
+For larger matrices, Gaussian elimination takes fewer operations. A 3 x 3 matrix has 9 cofactors, and each
+cofactor takes 3 operations. A 4 x 4 matrix has 16 cofactors, and each cofactor takes 14 operations.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -51,37 +51,36 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return the rows of Newton's matrix 1 - g'(u) to first order in h. The arguments are those of
-    :func:`matrix`.
+    """Return the rows of Newton's matrix 1 - g'(u) to first order in h.
 
-    ZeroDivisionError is raised if g or its derivative with respect to h cannot be evaluated at h = 0.
+    ``unknowns`` are the names of the components of u. The expressions ``images`` are the components of g(u).
+    ZeroDivisionError is raised as in :func:`leading_terms`.
     """
     return matrix(leading_terms(images), unknowns)
 
 
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
-    """Return the expansion of each image in powers of h, up to first order.
+    """Return the expansion of each expression in ``images`` to first order in h.
 
-    ZeroDivisionError is raised if an image or its derivative cannot be evaluated at h = 0.
+    ZeroDivisionError is raised if h = 0 leads to a division by zero, or to a function value f(0) that is not
+    rational.
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives of the images with respect to h.
+    # ``slopes`` are the derivatives of ``images`` with respect to h.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # Images and slopes share subexpressions, so h is set to zero in all of them together.
+    # Functions and derivatives share subexpressions, so one call inserts h = 0 in all of them.
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
 
 
 class _AtZero(ExprDomain):
-    """An expression domain that replaces function values f(0) by constants."""
+    """An expression domain that replaces a function call f(0) by its value."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a call node. If the argument is zero and :data:`AT_ZERO` contains the function, return a
-        constant.
-        """
-        # The closed forms of Stumpff functions are 0/0 at zero, so their values are taken from a table.
+        """Return a call node, or the value in :data:`AT_ZERO` if the argument is zero."""
+        # The closed forms of Stumpff functions are 0/0 at zero, so the values come from :data:`AT_ZERO`.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -92,7 +91,6 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the expressions ``roots`` with 0 in place of h."""
-    # With h = 0 some subexpressions are constant. The evaluation simplifies them.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # New nodes must be created in the same order in every run of the compiler.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
@@ -104,10 +102,10 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivoting, so the emitted code has no branches. Rounding errors of the inverse slow the
-    # iteration down, but do not change its solution.
+    # Cofactors need no pivoting, so the emitted code has no branches. Rounding errors of the inverse slow
+    # Newton's iteration down, but do not change its limit.
     determinant = space.zero
-    # The determinant is expanded along the first row, whose cofactors are known.
+    # The determinant is expanded along the first row.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
     # One division and n^2 products cost less than n^2 divisions.
@@ -120,8 +118,8 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # Without row i and column j, a 3 x 3 matrix has the rows a, b and the columns c, d. Their cyclic order
-    # gives the right sign. A 2 x 2 matrix has only the row a and the column c, so the sign is set explicitly.
+    # For n = 3, the rows i, a, b and the columns j, c, d are in cyclic order, so the cofactor needs no sign
+    # factor. For n = 2, only the row a and the column c remain, and the sign is set explicitly.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

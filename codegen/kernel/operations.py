@@ -1,6 +1,7 @@
 """Counts the operations and function calls of a step.
 
-The operations outside loops are counted separately. For each loop, the operations of one sweep are counted.
+The operations outside loops are counted separately. For each loop, the operations of one sweep (one
+iteration) are counted.
 """
 
 from __future__ import annotations
@@ -25,23 +26,23 @@ STEP = "step"
 """The key for the operations outside loops. Every step executes these operations."""
 
 START = "start"
-"""The key for the initial guess of a run. Only the first step of a run computes this guess."""
+"""The key for the operations of the initial guess. Only the first step of a run computes this guess."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
-    """Count the operations of a step by name: ``add`` (also for subtractions), ``mul``, ``div``, and calls.
+    """Count the operations of a step: ``add`` (also for subtractions), ``mul``, ``div``, and function calls.
 
     The result has separate counts for the following keys:
 
     - ``step``: the operations outside loops.
     - ``start``: the additional operations of the first step of a run.
-    - The label of a block of implicit equations: the operations of one sweep of its loop.
+    - The label of a block of implicit equations: the operations of one sweep (one iteration) of its loop.
     - The key that :func:`matrix_of` returns: the operations that compute the entries of a Newton matrix.
 
     The inversion of a Newton matrix, changes of sign, comparisons, extrapolation and the stopping rule are
     not counted.
     """
-    # ``inside`` contains the operations of one call of each outlined function.
+    # ``inside`` maps the name of an outlined function to the operations of one call.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -56,8 +57,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # The product of the stored inverse and the residual takes n^2 products and n (n - 1)
-                    # additions.
+                    # Each sweep multiplies the stored inverse of the n x n matrix by the residual.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -75,7 +75,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Count the operations of a kernel by name, as :func:`operations` does.
 
-    Some kernels have no outputs. For these kernels, the following operations are counted:
+    For some kinds of kernels, the following operations are counted instead:
 
     - Taylor polynomial: the computation of the coefficients, and the evaluation of the polynomial.
     - Step with large matrices: the operations of the whole step. The number of series terms in an exponential
@@ -96,16 +96,15 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     # Horner's rule takes ``degree`` additions and products for each component of the state.
     number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
-        # The coefficients of order 1 are counted above. The kernel ``following`` is called once for each
-        # further order.
+        # The kernel ``coefficients`` computes the Taylor coefficients of order 1. The kernel ``following`` is
+        # called once for each further order.
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
-        # The inner sum a_1 b_(n-1) + ... + a_(n-1) b_1 of order n has n - 1 terms.
+        # For n = 1, ..., ``last``, a loop computes the sums a_1 b_(n-1) + ... + a_(n-1) b_1 of n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    # ``enter`` converts the state to the coordinates of the polynomial, and ``leave`` converts the result
-    # back.
+    # The polynomial may use other coordinates than the state. ``enter`` and ``leave`` convert them.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
@@ -160,15 +159,15 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # At the end of a run, the difference of two results of ``outward`` is added to the momentum. This
-        # takes two additions for each component.
+        # At the end of a run, the momentum increases by the difference of two results of ``outward``. Each
+        # component takes a subtraction and an addition. Both count as ``add``.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
-        # A kernel of a deferred flow has no loops, so its counts have one line.
+        # A kernel of a deferred flow has no loops, so ``sentences`` returns one line.
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in each run")
     return lines

@@ -1,9 +1,9 @@
-"""Outlined functions: a group of operations that a step repeats becomes one function.
+"""Outlined functions: a tree of operations that a step repeats becomes one function.
 
-The operations of a group form a tree. The last operation gives the results of the tree. The results of each
-other operation are read by only one operation of the tree. The arguments of a function are the inputs of the
-tree and the coefficients of its sums. If every call passes the same constant for an argument, the function
-contains this constant instead. A function computes only the results that the step reads.
+The last operation of a tree computes the results of the tree. The results of any other operation are read by
+one operation of the tree only. The arguments of the function are the inputs of the tree and the coefficients
+of its linear combinations. If all calls pass the same constant for an argument, the function contains this
+constant instead. A function returns only the results that the step reads.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.ir.values import Coefficient, Kind
 from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
 from codegen.scene.problem import Problem
 
-# The first letters of the names of inputs, for example x1 for an element of the algebra.
+# The first letters in the names of function inputs, for example x1 for an element of the Lie algebra.
 LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.POINT: "y"}
 
 
@@ -36,19 +36,19 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # Constants are inserted here, so that the operations of the function can combine them. ``fixed`` also
-        # contains entries for inputs that later calls of this method return.
+        # Constants are inserted before the operations are executed, so expressions of constants are
+        # simplified. The list ``fixed`` may be longer, because it has entries for all inputs.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Return the text of a coefficient: a name or a number, followed by the factors h of ``c``.
+        """Return the text of the coefficient ``c``, for example ``c1 h``.
 
-        ``x`` is the value of ``c`` without the powers of h. If ``x`` is a symbol, the text contains its name.
-        Otherwise the text contains the number.
+        ``x`` is the function input for ``c`` without its powers of h: a symbol or a constant. The text
+        contains the name of the symbol or the number.
         """
-        # The name of a symbol is ``FUNCTION.ARGUMENT``. The text contains only ``ARGUMENT``.
+        # The symbol is named ``FUNCTION.ARGUMENT``. The text contains only ``ARGUMENT``.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -61,16 +61,16 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int], list[str]]:
-    """Return the outlined function for a tree, the positions of its inputs, and its run-time parameters.
+    """Return the outlined function for a tree, and its arguments.
 
-    ``read`` contains the indices of the results that the outlined function returns. ``fixed`` has one entry
-    for each input of the tree. If every call passes the same constant, the entry is this constant. Otherwise
-    the entry is None.
+    The arguments are two lists: the indices of inputs of the tree, and the names of scene parameters.
+    ``read`` contains the indices of the results that the function returns. ``fixed`` contains None for each
+    input of the tree, or the constant that all calls pass for this input.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The expressions of a tree may be simplified for its own inputs. The function must be correct for all
-    # inputs, so the tree is executed with symbols as inputs.
+    # The recorded expressions of a tree may be simplified for special inputs, for example zeros. The function
+    # must be correct for all inputs. Therefore the tree is executed again with symbols as inputs.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -79,7 +79,7 @@ def function(
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
-    # h is an argument if a coefficient of a sum contains a power of h.
+    # h is an argument if a coefficient contains a power of h.
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
@@ -90,7 +90,7 @@ def function(
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
-            # Equal coefficients in one sum are a single argument.
+            # Equal coefficients of a sum share one argument.
             own_terms = distinct(assign)
             # ``numbers`` contains the coefficients of all sums. The coefficients of this sum begin at the
             # index ``first``.
@@ -115,13 +115,13 @@ def function(
     # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
-    # The formulas of operations may contain parameters of the scene. All other symbols are inputs.
+    # Operations may read parameters of the scene. These parameters become further arguments.
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
     return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Return a name for each input: the letter of its kind and a number. Each kind is numbered separately.
+    """Return names for inputs of the given kinds. The inputs of each kind are numbered separately.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -156,7 +156,7 @@ class WithFunctions:
         ``callee`` is the name of a library function, or ``name.k`` for result k of the outlined function
         ``name``.
         """
-        # Names of library functions contain no dot.
+        # Only the names of outlined functions are followed by a dot.
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)

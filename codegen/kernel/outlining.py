@@ -35,37 +35,36 @@ LONG_EXPLICIT assignments.
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining shortens
 a step of cg:cg5 on dipole from 2345 to 545 lines, and the step then takes a third less time.
 
-The exact limits hardly matter. If one limit is doubled, nine methods of the gallery keep their kernels. For a
-new choice of the limits, set both to 0 and run ``orderconds bench dipole``.
+The exact limits hardly matter. To choose new limits, set both to 0 and compare the times that
+``orderconds bench dipole`` measures.
 """
 
 WORTH = 0.85
-"""The largest fraction of assignments that may remain after outlining. If a larger fraction would remain, the
-step is not outlined.
+"""A step is outlined only if the number of its assignments decreases to less than this fraction.
 
 Calls cost time, so the step must become much shorter. The exact limit hardly matters. The fraction is between
 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and for ``vcg:gauss4`` on
-heavy_top. One variant of ``cg:cg5`` on heavy_top has the fraction 0.86. This variant is not outlined.
+heavy_top.
 """
 
 AGREE = 1e-9
-"""The largest relative difference at which two values count as equal up to rounding.
+"""The largest relative difference of two values that is attributed to rounding errors.
 
-The difference is at most 1.4e-17 for the methods named at :data:`WORTH`. A wrong argument or result would
-change the leading digits.
+Rounding errors cause differences of at most 1.4e-17 for the methods named at :data:`WORTH`. If a call had a
+wrong argument, the leading digits of the values would change.
 """
 
 ATTEMPTS, DIGITS = 8, 60
 """The verification tries ATTEMPTS test points in double precision.
 
-If none of them gives finite values, it tries ATTEMPTS further points with DIGITS decimal digits. If these
-points fail, too, the verification fails.
+If none of them gives finite values, it tries ATTEMPTS further points with DIGITS decimal digits. If no point
+gives finite values, MethodError is raised.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of the trees that a function replaces, and the indices of the results that it returns.
+"""A pair (key, indices) that describes an outlined function.
 
-Different functions have different shapes.
+The function replaces the trees with this key. It returns the results of a tree with these indices.
 """
 
 
@@ -87,11 +86,11 @@ class Outline:
         """Replace repeated parts of the expressions ``roots`` by calls of functions, and return the new
         expressions.
 
-        The functions are added to ``outlined``. If nothing is repeated, the result is None. A block is a
-        system of equations that a loop solves. ``owners`` maps each unknown to the number of its block.
+        The functions are added to ``outlined``. If nothing is repeated, the result is None. Each block of
+        equations is solved by a loop. ``owners`` maps each unknown of the blocks to the number of its block.
         """
-        # A value may depend on the unknowns of several blocks. The largest number of these blocks is the
-        # level of the value. The level of a call is the largest level of its inputs.
+        # The level of a value is the number of the last block whose unknowns determine the value. The level
+        # of a call is the largest level of its inputs.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -99,15 +98,14 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # Simplification may have removed some of the chosen calls, so the remaining calls are counted.
+            # Simplification may have removed some of the new calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
                 # Each result of a call is a separate node. Only the node of result 0 is counted, so each
                 # call is counted once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # If every function has at least two calls, this round is the last. Otherwise the next round omits
-            # the trees of the functions with fewer calls.
+            # A function with fewer than two calls saves nothing. Without its trees, the choice is repeated.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
@@ -135,44 +133,44 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # All trees of a function have the same operations, so the function is created from the first
-            # tree.
+            # All trees of a function have the same operations, so the first tree determines the function.
             outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # If two trees have the same result, the call for the first tree computes this result.
+                    # Two trees may have the same expression as a result. The first call then replaces it.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # The simplified expressions ``roots`` may no longer contain all operands and results of assignments.
-        # Therefore the walk also visits these operands and results.
+        # The expressions ``roots`` were simplified, so they need not contain all operands and results of
+        # assignments. Therefore the walk visits these values, too.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
-            # A value has the level -1 if it depends on no unknowns.
+            # If a value does not depend on the unknowns of a block, its level is -1.
             own = owners.get(node.payload, -1) if node.op == "sym" else -1
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, with one group for each function."""
-        # If a tree is removed, the step may read other results of the remaining trees than before. Therefore
-        # the choice is repeated with the remaining trees.
+        # If a tree is removed, the step computes it without a call. The step may then read further results
+        # of the remaining trees. Therefore the choice is repeated with the remaining trees.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # Trees are visited in the order of the program, so functions are numbered by their first call.
+            # Trees are visited in the order of the program, so functions are numbered in the order of their
+            # first calls.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # A function with a single call saves nothing. Therefore a tree is removed if no other tree has
-            # the same shape.
+            # A function with a single call saves nothing, so a tree without a second tree of the same shape
+            # is removed.
             left = [t for alike in kept.values() for t in alike]
-            # If no tree was removed in this round, a further round would find the same groups.
+            # If no tree was removed, a repetition would find the same groups.
             if len(left) == len(trees):
                 return {key: [trees[t] for t in alike] for key, alike in kept.items()}
             trees = [trees[t] for t in sorted(left)]
@@ -182,7 +180,7 @@ class Outline:
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
-                # Symbols, numbers and their negatives cost nothing.
+                # Symbols, numbers and their negatives cost nothing, so they need no call.
                 if x.args and not (x.op == "neg" and not x.args[0].args):
                     ends.setdefault(x.id, (t, k))
         read: dict[int, set[int]] = {}
@@ -194,14 +192,14 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # The walk stops at a result of a tree, because a function will compute this result.
+            # A call will compute the results of a tree, so the walk does not visit their operands.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
-            # The operands of a tree may be results of other trees.
-            # The trees are sorted, so that every compilation visits the nodes in the same order.
+            # The call reads the inputs of the tree, so the walk continues at these inputs. The trees are
+            # sorted, because every compilation must visit the nodes in the same order.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
@@ -210,22 +208,21 @@ class Outline:
     def _even(self, tree: Tree, read: set[int]) -> bool:
         """Return True if one call can compute the results ``read`` of a tree.
 
-        The call and the results must be computed in the same loop. No input of the call may depend on a
-        result.
+        All these results must belong to the loop that executes the call. No input of the call may depend on
+        one of the results.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # ``deepest`` is the level of the call, so the loop of this block executes the call. A result with a
-        # lower level does not depend on the unknowns of this block. The loop must not compute such a result.
+        # The loop of block ``deepest`` executes the call. A result with a lower level does not depend on the
+        # unknowns of this block, so the loop must not compute this result.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # A call cannot read its own results, so no input may depend on a result. Nodes are numbered in the
-        # order of their creation. If a result is newer than all inputs, no input depends on it.
+        # Nodes are numbered in the order of their creation. If a result is newer than all inputs, no input
+        # depends on this result.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
         """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after`` have other values than
-        ``before``. Raise MethodError if the values of ``before`` contain an infinity or a NaN at every test
-        point.
+        ``before``. Raise MethodError if no test point gives finite values of ``before``.
         """
         # The names are sorted, so every verification of a step uses the same test points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
@@ -234,7 +231,7 @@ class Outline:
             # The step size is halved for each new test point, so that finite values become more likely.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
-            # If doubles fail at every point, numbers with more digits and a larger range are tried.
+            # If no point gives finite doubles, numbers with more digits and a larger range are tried.
             if attempt > ATTEMPTS:
                 domain = precise = PreciseDomain(0.1, DIGITS)
                 values = {x: precise.context.mpf(v) for x, v in values.items()}
@@ -246,8 +243,8 @@ class Outline:
             # The comparison is false for infinities and for NaN.
             if not all(abs(x) < math.inf for x in old):
                 continue
-            # The difference is compared with the largest value, because outlining may change the rounding of
-            # small values.
+            # A small value may be a difference of large values, with a large relative rounding error.
+            # Therefore all errors are compared with the largest value.
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the results of {self.program.name}")
