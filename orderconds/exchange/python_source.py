@@ -198,12 +198,12 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
     # In ``A = B = [0]`` both variables are the same list, so each expression is evaluated only once.
-    found = {id(expression): values.value(expression) for _, expression in assigned}
+    evaluated = {id(expression): values.value(expression) for _, expression in assigned}
     for _, expression in assigned:
         if may_change(expression, values):
             values.forget(mentioned(expression), expression.lineno)
     for name, expression in assigned:
-        values.assign(name, found[id(expression)], mentioned(expression))
+        values.assign(name, evaluated[id(expression)], mentioned(expression))
 
 
 def _define(statement: Definition, values: Values) -> None:

@@ -137,14 +137,14 @@ class Values:
 
     def _traced(self, names: Collection[str]) -> tuple[frozenset[str], frozenset[int]]:
         """Return ``names`` and the variables in their definitions, and the memories of all their arrays."""
-        found, memories = set(names), set[int]()
+        reached, memories = set(names), set[int]()
         for name in names:
             more, shared = self.sources.get(name, (frozenset(), frozenset()))
-            found |= more
+            reached |= more
             memories |= shared
-        for value in map(self.known.get, found):
+        for value in map(self.known.get, reached):
             memories |= value.parts() if isinstance(value, Array) else set()
-        return frozenset(found), frozenset(memories)
+        return frozenset(reached), frozenset(memories)
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value, line: int) -> bool:
         """Assign a value to the entry with the indices ``place``. Return True on success, and False
