@@ -1,7 +1,8 @@
 """Kernels that compute the coefficients of Taylor polynomials, by unrolled code or by a loop.
 
-For the degree P, unrolled code contains about P^2 operations for each product in the formulas of the field.
-If unrolled code fits into the instruction cache, it is faster than a loop. Otherwise a loop is used.
+For a polynomial of degree P, unrolled code has about P^2 operations for each product in the differential
+equation. If unrolled code fits into the instruction cache, it is faster than a loop. Otherwise a loop is
+used.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from codegen.scene.problem import TIME, Problem
 UNROLLED = 5000
 """The largest number of operations of unrolled code. Longer code becomes a loop.
 
-For a polynomial of degree P, the estimated number of operations is P^2 for each product in the field. The
+For a polynomial of degree P, P^2 operations are counted for each product in the differential equation. The
 instruction cache of most processors has 32 KB, enough for about 4000 operations. With 18 products
 (heavy_top), a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products,
 the step takes 1.5 us with unrolled code and 0.82 us with a loop.
@@ -33,7 +34,7 @@ the step takes 1.5 us with unrolled code and 0.82 us with a loop.
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
     """Return the kernel that computes the Taylor coefficients in a loop, or None if unrolled code is used.
 
-    Short code is unrolled. If the momentum is in the body frame, code of every length is unrolled.
+    If code is short, or if the state contains the body momentum, unrolled code is used.
     """
     if problem.body_group is not None:
         return None
@@ -49,9 +50,9 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return ``kernel`` with additional kernels that compute the Taylor coefficients of the solution.
+    """Return ``kernel`` with the Taylor coefficients of the solution.
 
-    The emitted code has an additional function for runs with step-size control.
+    Then a run can choose its step size from these coefficients.
     """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
@@ -62,7 +63,7 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
 def _loop(inner: Evolution) -> OrderLoop:
     domain = SharedArguments()
     state = tuple(map(domain.space.sym, inner.inner.symbols))
-    # The step size is set to 1, so the coefficients contain no factors h^n.
+    # With step size 1, coefficient n contains no factor h^n.
     terms = inner.recurrence(domain, state, domain.space.sym(TIME), domain.space.one)
     return order_loop(terms, domain.space)
 
@@ -70,8 +71,8 @@ def _loop(inner: Evolution) -> OrderLoop:
 def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
     """Return the kernels that compute the Taylor coefficients of the solution.
 
-    If ``loop`` is given, the kernels contain the body of a loop over the order. Otherwise they contain
-    unrolled code.
+    If ``loop`` is given, a loop over the order computes the coefficients. If ``loop`` is None, unrolled code
+    computes them.
     """
     work, frame = problem.evolution, problem.body_group
     assert work is not None
@@ -79,11 +80,11 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates in which the Taylor polynomial is computed"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
-    # ``name`` never returns a name twice, so the kernels ``first`` and ``following`` have different names.
+    # ``first`` and ``following`` share ``name``, so their intermediate values have different names.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # ``left`` and ``right`` contain coefficient n of the two factors of each product of series.
-    # ``following`` contains coefficient n + 1 of each coordinate.
+    # For each product a b of power series, ``left`` contains a_n and ``right`` contains b_n.
+    # ``loop.following`` contains coefficient n + 1 of each coordinate.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 
@@ -92,7 +93,8 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # Step-size control computes h from the coefficients. Therefore the coefficients are computed for h = 1.
+    # Step-size control chooses h after the coefficients are known. Therefore coefficient n
+    # contains no factor h^n.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     # A coefficient that is identically zero is None in ``rows``. The outputs are sorted by degree.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
@@ -104,7 +106,7 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
     ends = work.enter(domain, given, frame)
-    # The polynomial uses the coordinates of the state, so no conversion is needed.
+    # If the Taylor polynomial is computed in the coordinates of the state, no conversion is needed.
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))
@@ -123,7 +125,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that creates new names. They differ from all names of the kernel."""
+    """Return a function that creates new names, which the kernel does not use."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:
@@ -138,7 +140,7 @@ def _names(kernel: Kernel) -> Callable[[str], str]:
 def _kernel(
     kernel: Kernel, state: Sequence[Field], ends: Sequence[Expr], name: Callable[[str], str]
 ) -> Kernel:
-    """Return a kernel that computes the expressions ``ends`` from the blocks ``state``.
+    """Return a kernel that computes the expressions ``ends`` from the fields ``state``.
 
     The function ``name`` chooses the names of intermediate values.
     """

@@ -1,8 +1,8 @@
 """Translates a step program to a kernel, which consists of scalar assignments and loops.
 
-The program is executed symbolically, so every value becomes a tuple of expressions. Equal expressions share
-one node. A block of implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become
-assignments (:mod:`codegen.kernel.assignments`).
+The program is executed symbolically: the value of each variable becomes a tuple of expressions. A block of
+implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
+(:mod:`codegen.kernel.assignments`).
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path, which is the longest chain of dependent operations.
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED groups the factors that are constant in a run, such as the step size.
+- COMBINED first multiplies those factors that are constant in a run, such as the step size.
 - ORDERED sorts the assignments by the estimated time at which each value is available.
-- SHORTENED includes COMBINED and ORDERED, and rewrites the longest chains
+- SHORTENED does what COMBINED and ORDERED do, and rewrites the longest chains
   (:mod:`codegen.kernel.critical_path`).
 """
 
@@ -72,19 +72,20 @@ def to_kernel(
 
     - ``solvers`` maps labels of blocks of implicit equations to :data:`codegen.ir.kernel.NEWTON` or
       SIMPLIFIED_NEWTON. All other blocks are solved by fixed-point iteration.
-    - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
-    - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
-      without implicit equations.
-    - ``whole`` is used if only the program stores the momentum in the body frame. If ``whole`` is true, each
-      step transforms the momentum. Otherwise a run transforms the momentum at the beginning and at the end
-      (:mod:`codegen.kernel.carried_momentum`).
+    - If ``variations`` is given, the kernel computes the variation of the new state, and not the new state
+      itself. Such a kernel is ``Kernel.vary`` of another kernel.
+    - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED (:data:`AS_WRITTEN`). If the program has
+      implicit equations, ``chains`` must be AS_WRITTEN.
+    - ``whole`` matters only if the program uses the body momentum and the emitted code uses the space
+      momentum. If ``whole`` is true, each step converts the momentum. If ``whole`` is false, a run converts
+      the momentum once at its beginning and once at its end (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
       (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
-    method does not exist. ZeroDivisionError is raised if this matrix must be expanded in h, but the equations
-    have no value at h = 0.
+    method does not exist. ZeroDivisionError is raised if this matrix must be expanded to first order in h,
+    but the equations cannot be evaluated at h = 0.
     """
     return _Translation(program, scene, solvers, variations, chains, whole, outlining).kernel()
 
@@ -94,7 +95,7 @@ class _Translation:
 
     - ``env`` maps each variable of the program to its value, which consists of expressions.
     - ``hints`` maps the ids of expressions to preferred names in emitted code.
-    - ``taken`` contains all names that emitted code uses already.
+    - ``taken`` contains all names that are already in use in emitted code.
     """
 
     def __init__(
@@ -109,24 +110,24 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # The domain represents equal expressions by one node.
+        # In this domain, equal expressions are one node.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Generated names must differ from these names.
+        # ``name`` returns none of the names in ``taken``.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
-        # With variations, the kernel computes the Jacobian in the coordinates of the emitted code. Therefore
-        # each step must convert the momentum.
+        # The Jacobian refers to the state of the emitted code. Therefore a kernel with variations converts
+        # the momentum in each step.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
         """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
-        # An appended number would look like an index, because xi1_2 denotes component 2 of xi1.
+        # Underscores make the name new. A number would look like an index: xi1_2 is component 2 of xi1.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -152,18 +153,18 @@ class _Translation:
                 f"{assign.operation.name} on {scene.group.name}: {error}",
                 where=scene.name,
                 expected="a group whose operations have closed forms",
-                hint="write the closed forms in the class of the group; without them the group has exact "
-                "power series, but no emitted code",
+                hint="write the closed forms in the class of the group; "
+                "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` combines the constants of the results. The arguments remain unchanged, so that
-            # other expressions can share the arguments.
+            # ``gathered`` combines numeric constants in the results. It does not rewrite the arguments,
+            # because other expressions also use them.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # The results of an operation with a time argument may depend on run-time inputs. Such an operation is
-        # not outlined, because an outlined function reads only its arguments.
+        # An operation with a time argument may read run-time inputs. An outlined function reads only its
+        # arguments, so it must not contain such an operation.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # The current block is not in the list yet, so its index is the length of the list.
+        # ``blocks`` does not yet contain the current block, so the length is the index of this block.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -173,45 +174,45 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # All following statements read the transformed momentum.
+        # ``start`` is the old state with the momentum in the frame of the program.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
-            # ``given`` contains the coordinates of this block, and then the coordinates of the next blocks.
+            # ``given`` starts with the coordinates of ``block``. The coordinates of later blocks follow.
             starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
         for var in self.program.inputs:
             self.env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Execute the body of a block of equations, and add the block to ``blocks``."""
-        # While ``inside`` is true, ``run`` records assignments as part of this block. Outlining never joins
-        # them with assignments outside the block.
+        """Execute a block of implicit equations, and add it to ``blocks``."""
+        # While ``inside`` is true, ``run`` records each assignment as part of this block. An outlined
+        # function never contains assignments of the block together with assignments outside it.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # With variations, :func:`_varied` needs the images g(u) of the equations u = g(u). Without
-        # variations, Newton's method can use residuals in place of the images.
+        # Newton's method can solve r(u) = 0 in place of u = g(u). But :func:`_varied` needs the values g(u),
+        # which are the images of the block.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # :func:`compared` has added Newton's matrix to a block with residuals.
+        # A block with residuals already contains Newton's matrix, because ``compared`` computes the matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # After Newton's method the unknowns are more accurate than the last images, so later statements
-            # read the unknowns.
+            # The last sweep of Newton's method computes g(u) and then improves u. Therefore later statements
+            # read u in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` requires that ``blocks`` does not yet contain the current block.
+        # ``run`` uses the length of ``blocks`` as the index of this block, so the block is added last.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
-        """Set the unknowns to symbols, execute the body, and return the block."""
+        """Return a block of implicit equations as expressions in its unknowns."""
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -235,18 +236,18 @@ class _Translation:
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # The error estimate is the new state minus the embedded solution. Therefore both states must be in
-        # the same frame.
+        # ``kernel`` subtracts the embedded solution from the new state. Therefore the loop converts both
+        # states to the same frame.
         for embedded in (False, True):
-            # Without an embedded solution, no output has the name EMBEDDED. Then ``values`` is empty.
+            # If the program has no embedded solution, the second ``values`` is empty.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
         # The critical path is shortened before expressions are split into assignments.
         if self.chains in (COMBINED, SHORTENED):
-            # These symbols are constant in a run, so a compiler moves their products out of the loop over the
-            # steps.
+            # A compiler moves products of the symbols in ``constant`` out of the loop over the steps, because
+            # these symbols do not change in a run.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
@@ -257,7 +258,8 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations contain the solution of the block. Therefore the block comes first.
+        # The equations for the variations of a block contain the solution of this block. Therefore they
+        # follow the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -273,15 +275,15 @@ class _Translation:
         outputs, lower = self.ended(start)
         fields = self.frames.fields()
         if self.variations is not None:
-            # The kernel for a Jacobian contains no error estimate.
+            # A kernel with variations has no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # The error estimate is the new state minus the new state of the embedded method.
+        # The error estimate is the difference between the new state and the embedded solution.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # Outputs and error estimates are ordered together, so that they can share assignments.
+        # One call orders outputs and error estimates, so they can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # LEAD is the duration of the last flow of a step. ELAPSED is the duration of a single step or of a
-        # whole run.
+        # In a splitting method, LEAD is the duration of the last flow of a step. ELAPSED is the duration of
+        # a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -295,27 +297,27 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, the outputs and the outlined functions of the kernel.
+        """Return the body and the outputs of a kernel that computes ``ends``, and its outlined functions.
 
-        Repeated computations become functions if this makes the code much shorter.
+        Computations are outlined only if this makes the kernel much shorter.
         """
-        # Outlining replaces ``schedule``. The names in ``schedule`` are then free, but the names in
-        # ``before`` are not.
+        # The names in ``before`` were taken before ``schedule`` was computed. Outlining discards
+        # ``schedule``, so only the names in ``before`` remain taken.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
         # The number of assignments is a measure of the code size. Only long code is outlined.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Outlining searches the expressions for the results of operations. COMBINED and SHORTENED rewrite
-        # these results, so outlining would find nothing.
+        # Outlining looks for the results of operations in ``ends``. COMBINED and SHORTENED have rewritten
+        # these expressions, so outlining would find nothing.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # Outlining may change the assignments, so they are sorted after outlining.
+        # The assignments are sorted last, because outlining replaces them.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -329,7 +331,7 @@ def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
             total += 1
             continue
         total += len(statement.body)
-        # A loop of Newton's method also computes Newton's matrix.
+        # ``newton.body`` contains the assignments that compute Newton's matrix.
         if isinstance(statement, Loop) and statement.newton is not None:
             total += len(statement.newton.body)
     return total
@@ -342,15 +344,15 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return a schedule that calls outlined functions, and the list of these functions.
+    """Return the assignments that call outlined functions, and the outlined functions.
 
-    The schedule is None if no computation is repeated.
+    The assignments are None if no computation is repeated.
     """
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Outlining must not create functions for unused values. Therefore a value in ``kept`` is removed if no
-    # expression in ``flat`` reads the value.
+    # ``kept`` contains values for statements after a loop. A value that no expression in ``flat`` reads is
+    # removed, so that outlining creates no function for it.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # The expressions of all blocks are in one list. Therefore outlining also finds computations that are
@@ -395,8 +397,8 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
     The symbols of these variations are added to ``seeds``.
     """
-    # The derivative of u = g(u) is an equation for the variation du of u. The variations of the old state and
-    # of the unknowns of earlier blocks are known when this equation is solved.
+    # Differentiating u = g(u) gives a linear equation for the variation du. The equation also contains the
+    # variations of the old state and of the unknowns of earlier blocks, which are known.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the convergence does not depend on the starting values. The iteration
@@ -410,7 +412,7 @@ def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
 
     Only samples that the kernel reads are added.
     """
-    # The compiler passes may have removed all expressions that read a sample.
+    # Earlier compiler passes may have removed all uses of a sample.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

@@ -38,7 +38,7 @@ class Variations:
         """
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
-            # If the group acts on itself by left multiplication, a point is a group element.
+            # If the group acts on itself by left multiplication, a point of the manifold is a group element.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
@@ -59,7 +59,7 @@ class Variations:
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the components of a variation."""
-        # These names contain a dot, so they differ from the names of a scene, which are identifiers.
+        # Names in a scene are identifiers, so a name with a dot is always new.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
@@ -68,7 +68,7 @@ class Variations:
         seeds: dict[str, Expr] = {}
         for group, symbols in self.parts:
             count = len(symbols) if group is None else group.dim
-            # The components of a variation are consecutive, in the order of the parts.
+            # A variation contains the components of the first part, then of the second part, and so on.
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
             # For a group element q and a variation xi, ``velocity`` computes the derivative dq = xi.q.
@@ -86,7 +86,7 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # For the tangent vector v at g, ``rate`` returns the element xi of the algebra with v = xi.g.
+            # For a tangent vector v at g, ``rate`` returns the element xi of the Lie algebra with v = xi.g.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

@@ -23,7 +23,7 @@ def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side of the differential equation of a scene, as a function of (state, t).
 
     The function returns a tuple of Arb balls, which are numbers with an error radius. The parameters of the
-    scene have their default values. Constants are rounded to the current working precision.
+    scene have their default values. Constants are rounded to the working precision at the time of the call.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 
@@ -31,8 +31,8 @@ def ambient_field(scene: Problem) -> Evaluate:
 def ball(number: Number) -> arb:
     """Return an exact number as a ball.
 
-    A rational number is rounded to the working precision. An irrational number has 16 additional
-    bits of precision.
+    A rational number is rounded to the working precision. An irrational number is computed with 16 more
+    bits.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

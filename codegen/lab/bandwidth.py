@@ -1,16 +1,15 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
-The emitted module is run on a lattice whose arrays are larger than the last-level cache. A sweep is a loop
-over all sites. Each sweep reads and writes main memory, because the arrays do not fit into the cache. The
-measurement counts the bytes that all sweeps of a step read and write
-(:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
+A sweep is a loop over all sites of the lattice. The arrays of the lattice are larger than the last-level
+cache. Therefore each sweep reads and writes main memory. The measurement counts the bytes that all sweeps
+of a step read and write (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
 
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or writes is counted once. Before the processor writes to a cache line, it
-reads this line. This additional read is not counted. For the triad, the count omits a quarter of the memory
-traffic. If a step reads more than two numbers for each number that it writes, the count omits a smaller
-fraction. Then the bandwidth of the step can exceed the bandwidth of the triad.
+reads this line. This read is not counted, so for the triad the count omits a quarter of the memory traffic.
+The count omits less if a loop reads more than two numbers for each number that it writes. Therefore a step
+can have a higher counted bandwidth than the triad.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ STEP_SECONDS = 0.5
 """The largest CPU time of a step in seconds. If a step would take longer, a smaller lattice is used."""
 
 RESOLVED = 0.01
-"""The least duration of a timed run in seconds. It is much longer than the resolution of the clock."""
+"""The shortest duration of a timed run in seconds: far above the resolution of the clock."""
 
 REPEATED = 5
 """The number of timed runs. The fastest run is used, because other processes can only slow a run down."""
@@ -79,10 +78,10 @@ At most ATTEMPTS attempts are made. The first step can fail if the initial state
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The iterations for implicit equations are counted in a run of COUNTED_STEPS steps on a small lattice.
+"""The number of steps and the size of the small lattice on which iterations are counted.
 
-A lattice of dimension d = 1 or 2 has SIDES[d] sites along each axis. In higher dimensions, the lattice has 4
-sites along each axis.
+In dimension d = 1 or 2, this lattice has SIDES[d] sites along each axis. In higher dimensions, it has 4 sites
+along each axis.
 """
 
 TRIAD = """\
@@ -140,7 +139,7 @@ class Bandwidth:
         return [*lines, f"{self.rate:.1f} GB/s, which is {of}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the result as plain data, for the key ``bandwidth`` of a JSON record."""
+        """Return the measurement as a dictionary for the key ``bandwidth`` of a JSON record."""
         return {
             "shape": list(self.shape),
             "array_bytes": self.array_bytes,
@@ -165,14 +164,14 @@ class Unmeasured:
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason as plain data, for the key ``bandwidth`` of a JSON record."""
+        """Return the reason as a dictionary for the key ``bandwidth`` of a JSON record."""
         return {"reason": self.reason}
 
 
 def measure(
     compiled: Compiled, artifact: Artifact, most_bytes: int | None = None, seconds: float = COMPILE_SECONDS
 ) -> Bandwidth | Unmeasured:
-    """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
+    """Return the bandwidth of an emitted module for a lattice, or the reason why it is not available.
 
     All sites start from the initial state of the scene. The size of the arrays is limited to ``most_bytes``.
     The default limit is a fraction of the free memory (:data:`FREE_SHARE`). The compile time is limited to
@@ -217,8 +216,8 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # A small step size gives small rotation angles. For angles above about one radian, the emitted code
-    # repeats the computation in a slow loop.
+    # For rotation angles above about one radian, the emitted code needs a slow loop. A small step size keeps
+    # the angles small.
     return h if step.blocks else h / SHORTER
 
 
@@ -239,7 +238,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The number of stored numbers for one site, in the state and in the workspace."""
+        """The size of the state and of the workspace of one site, in numbers."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property
@@ -255,9 +254,9 @@ class _Runs:
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
-        """Run one step. If the step fails, divide ``h`` by :data:`SHORTER` and run the step again.
+        """Run one step. After each failure, divide ``h`` by :data:`SHORTER` and run the step again.
 
-        At most :data:`ATTEMPTS` attempts are made. Return the status of the last attempt.
+        Make at most :data:`ATTEMPTS` attempts, and return the status of the last attempt.
         """
         for _ in range(ATTEMPTS):
             status, _ = self.timed(side, 1)
@@ -317,8 +316,8 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
     """Return the mean number of iterations in a step, for each system of implicit equations.
 
     Emitted modules do not report the number of iterations. Therefore :data:`COUNTED_STEPS` steps are executed
-    in Python on a small lattice. Each iteration calls the function of its first sweep once. The calls of this
-    function are counted.
+    in Python on a small lattice. An iteration consists of sweeps over the sites, and each sweep has a
+    function. The calls of the function of the first sweep are counted.
     """
     if not step.blocks:
         return ()
@@ -383,7 +382,7 @@ def cache_bytes() -> int:
 
 
 def free_bytes() -> int:
-    """Return the free memory in bytes, or :data:`USUAL_MEMORY` if the system does not state it."""
+    """Return the free memory in bytes, or :data:`USUAL_MEMORY` if the free memory is unknown."""
     try:
         return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (ValueError, OSError, AttributeError):
