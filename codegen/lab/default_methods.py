@@ -1,7 +1,7 @@
 """The default methods and scenes of the commands that measure methods.
 
 A name such as ``cf:cf4`` contains the name of a family of methods and the name of a tableau. The command
-``report`` omits the default methods whose family does not apply to the scene.
+``report`` omits default methods whose family cannot be used for the scene.
 """
 
 from __future__ import annotations
@@ -38,14 +38,15 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""The default methods of the report with equal steps, and their orders.
+"""The default methods that the command ``report`` runs with equal steps, and their orders.
 
 REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. The order
-of a method can depend on the scene. If the order differs from the listed order, the report omits the method.
+of a method can depend on the scene. If a method has another order on the scene than in this list, the report
+omits the method.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""The default methods of the report with step-size control.
+"""The default methods that the command ``report`` runs with step-size control.
 
 A figure has only eight colours. REPORT_HAMILTONIANS needs seven of these colours. Therefore the report of a
 Hamiltonian scene uses only the first method of this list.

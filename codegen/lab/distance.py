@@ -26,8 +26,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
     """Return the distance of a computed state from the reference ``exact``, in the error norm of a scene.
 
     ``state`` and ``exact`` list the coordinates in the order of ``scene.symbols``. Differences are computed
-    in the precision of ``exact``, so that an error below 1e-16 is not lost. The result is infinite if
-    a coordinate of ``state`` is not finite.
+    in the precision of ``exact``. Therefore errors below 1e-16 are not lost. If a coordinate of ``state`` is
+    not finite, the result is infinite.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):

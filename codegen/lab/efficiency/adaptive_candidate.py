@@ -27,7 +27,7 @@ Therefore this list begins with looser tolerances than the list :data:`codegen.l
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
-    """A method with an embedded error estimate, which is emitted and run with step-size control.
+    """An emitted method that runs with step-size control.
 
     MethodError is raised for a method without an error estimate.
     """

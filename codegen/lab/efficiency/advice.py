@@ -64,7 +64,7 @@ class Advice:
     - ``runner_up``: the second fastest method, or None if at most one method reaches the required error.
     - ``search``: all details of the search.
 
-    ``bool(advice)`` is True if ``best`` is a method.
+    ``bool(advice)`` is True if ``best`` is not None.
     """
 
     scene: str

@@ -1,6 +1,6 @@
-"""A bench measures the error and the CPU time of emitted methods and of peers on a scene, and ranks them.
+"""A bench measures the errors and CPU times of emitted methods and peers (other integrators) on a scene.
 
-Peers are other integrators.
+For each required error, the bench names the two fastest candidates.
 """
 
 from __future__ import annotations
@@ -155,7 +155,7 @@ def bench(
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:
-        # This call raises MethodError if the tableau has no embedded method.
+        # If the method has no step-size control, MethodError is raised here, before the long computations.
         replace(method, adaptive=True).embedded()
     others = find(peers)
     equations = all_equations(problem, forms)
@@ -194,8 +194,8 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return one candidate for each pair of a peer and an element of ``equations``.
 
-    Some peers project their states onto the manifold of the scene. Such a peer has only one candidate, for
-    the equations that the scene states.
+    Some peers project their states onto the manifold of the scene. Such a peer has only one candidate.
+    This candidate integrates the equations that the scene states.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -207,8 +207,8 @@ def peer_forms(
 def entry_name(candidate: Candidate) -> str:
     """Return the name of a candidate in the results.
 
-    The name is the label of the candidate. If the code is emitted in another language than the default
-    language, the label is followed by the name of this language in parentheses.
+    The name is the label of the candidate. If the target is not the default language, the name of the target
+    follows in parentheses.
     """
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
@@ -266,8 +266,8 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return one curve for each candidate with a successful run. A curve shows errors and CPU times.
 
-    If a candidate has runs on several forms of the equations, the curve shows the fastest form for each error
-    (:func:`frontier`).
+    A candidate can have runs on several forms of the equations. If another form reaches the error of a run in
+    less time, the curve omits this run (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

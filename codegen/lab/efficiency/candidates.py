@@ -24,8 +24,8 @@ SEARCHED = 5
 """The largest order of recipes without a cut-off in their names, such as ``rkmk:rk4``.
 
 The 2 in ``rkmk(2):rk4`` is a cut-off: the series of dexp^{-1} is truncated after 2 commutators. For the name
-``rkmk:rk4``, the compiler searches for the fewest commutators that give the order of the method. For orders
-above SEARCHED, this search takes seconds.
+``rkmk:rk4``, the compiler searches for the fewest commutators that give the order of the method. This
+search takes seconds for orders above SEARCHED. Therefore these orders have no recipe without a cut-off.
 """
 
 
@@ -38,13 +38,13 @@ class Recipe:
     """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order of the method. The function :func:`named` computes the order from the order
-      conditions. All other functions take the order from the file of the tableau.
+    - ``order``: the order of the method. For recipes from :func:`named`, the order is computed from the order
+      conditions. For all other recipes, it is taken from the file of the tableau.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control, and False for equal steps.
     - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
-    - ``explicit``: True if each stage of the tableau depends only on earlier stages.
+    - ``explicit``: True if the tableau is explicit (:func:`is_explicit`).
 
     A family that needs no tableau, such as ``taylor``, has a degree instead. In this case ``order`` and
     ``stages`` are both equal to the degree.
@@ -95,7 +95,7 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
+    """Yield the recipes for the equations that the scene states.
 
     On an abelian group, several families give the same methods. Only the first of these families in
     :func:`families_for` is used. The function does not check whether a recipe can be compiled for the scene.
@@ -123,7 +123,7 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
     """Return True if the given tableau defines a method of a family.
 
     The family must be able to read the format of the tableau. If the formulas of the family divide by the
-    weights, all weights must be provably nonzero.
+    weights b_i of a Runge-Kutta tableau, all weights must be provably nonzero.
     """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
@@ -136,12 +136,13 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. The series is
-    truncated after this number of commutators. The order of the method depends on the cut-off. For each
-    order, only the smallest cut-off that gives this order is used. Orders below half the classical order of
-    the tableau have no recipe.
+    In some families, the name of a method contains a cut-off, such as the 2 in ``rkmk(2)``. A series in the
+    method is truncated after this number of commutators. The order of the method depends on the cut-off. For
+    each order, only the smallest cut-off that gives this order is used. Orders below half the classical order
+    of the tableau have no recipe.
 
-    Explicit tableaux with exact coefficients may also have a recipe without a cut-off (:data:`SEARCHED`).
+    An explicit tableau with exact coefficients can have one more recipe, which has no cut-off
+    (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -182,7 +183,7 @@ def size(tableau: Tableau) -> int:
 def is_explicit(tableau: Tableau) -> bool:
     """Return True if each stage of a tableau depends only on earlier stages.
 
-    For tableaux that cannot be read as Runge-Kutta tableaux, the result is True.
+    Tableaux that cannot be read as Runge-Kutta tableaux count as explicit.
     """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
@@ -209,7 +210,10 @@ def _both(
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
-    """Return the method of a recipe. MethodError is raised if the method cannot be used for the scene."""
+    """Return the method of a recipe.
+
+    MethodError is raised if the method cannot be used for ``problem``.
+    """
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
     method.embedded()
     return method

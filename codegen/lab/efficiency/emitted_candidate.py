@@ -154,8 +154,8 @@ class EmittedCandidate:
         """Return the sum of ``cost`` over all operations that a run executes.
 
         ``iterations`` contains the number of iterations of each system of implicit equations in the whole
-        run. Each iteration executes the operations of one system once. Each substep executes all remaining
-        operations once. A step without substeps counts as one substep.
+        run. Each iteration of a system executes the operations of this system once. Each substep executes all
+        remaining operations once. A step without substeps counts as one substep.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

@@ -18,9 +18,9 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of a scene in one form, for example with a unit quaternion or as the scene states them.
+    """The equations of a scene in one form, for example with unit quaternions.
 
-    ``form`` is None for the equations of the scene itself. ``alone`` is True if the scene has only one form
+    ``form`` is None for the equations that the scene states. ``alone`` is True if the scene has only one form
     of its equations. In this case, tables omit the name of the form.
     """
 

@@ -1,4 +1,6 @@
-"""The exhaustive search considers every recipe of the library, to check the result of the usual search.
+"""The exhaustive search considers every recipe of the library, to check the usual search.
+
+The usual search is the search of the command ``orderconds recommend``.
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
@@ -6,9 +8,9 @@ A recipe consists of a method, one form of the equations, and the choice of equa
    for each required error. The operations of a step give the predicted CPU time of the step.
 2. The predicted CPU time of a run is the number of steps times the time of a step. This time divided by the
    safety factor SAFE is a lower bound of the true CPU time.
-3. For each required error, the time limit is WORST times the best CPU time of the usual search. A recipe is
-   excluded if its lower bound exceeds the limits of all required errors. If a prediction is unreliable,
-   the lower bound is the time of a single step (:func:`least_ratio`).
+3. Each required error has a time limit: WORST times the best CPU time of the usual search. A recipe is
+   excluded if its lower bounds exceed the limits of all required errors. If a prediction is unreliable,
+   the lower bound is computed from the time of a single step (:func:`least_ratio`).
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
@@ -100,10 +102,10 @@ def exhaust(
     progress: Progress = str,
     most: float = math.inf,
 ) -> Exhausted:
-    """Search the whole library for the fastest recipe for each error in ``known``.
+    """Search the whole library for the fastest recipe for each required error.
 
-    ``known`` maps each error to the least CPU time in seconds that the usual search measured. The value is
-    infinity if the usual search found no recipe. ``most`` is the time limit in seconds.
+    ``known`` maps each required error to the least CPU time in seconds that the usual search measured, or to
+    infinity if the usual search found no recipe. ``most`` is the time limit of this search in seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -137,7 +139,7 @@ def exhaust(
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
     """Return the prediction for each pair of a method and a form of the equations.
 
-    Each prediction is for equal steps. The search also uses it for the method with step-size control.
+    Each prediction is for equal steps. With step-size control, a method has the same prediction.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
@@ -157,7 +159,8 @@ def _key(recipe: Recipe) -> Key:
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
     """Return the smallest ratio of the predicted CPU time of a recipe to the time limit, over all errors.
 
-    A recipe is excluded if this ratio is above 1. ``limits`` maps each error to its time limit in seconds.
+    A recipe is excluded if this ratio is above 1. ``limits`` maps each required error to its time limit in
+    seconds. The time limits include the safety factor SAFE.
     ``adaptive`` is True if the recipe has step-size control.
 
     A prediction is unreliable in two cases:
@@ -187,8 +190,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 def sampled(excluded: Sequence[T]) -> list[T]:
     """Return a sample of at most :data:`SAMPLE` excluded recipes.
 
-    ``excluded`` must be sorted by :func:`least_ratio`. Half of the sample is the beginning of ``excluded``.
-    The other half is distributed evenly over the remaining recipes.
+    ``excluded`` must be sorted by :func:`least_ratio`. The first half of the sample consists of the first
+    recipes in ``excluded``. The second half is distributed evenly over the remaining recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]

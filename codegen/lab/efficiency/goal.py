@@ -25,7 +25,7 @@ from orderconds.errors import InputError, UnknownName
 class Need:
     """A requirement on methods, with its name and its meaning.
 
-    ``long`` is True if the requirement also concerns runs over long times.
+    ``long`` is True if the search tests the requirement in a long run.
     """
 
     name: str
@@ -69,7 +69,7 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """True if a requirement of the goal concerns runs over long times."""
+        """True if the search tests a requirement of the goal in a long run."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property

@@ -36,14 +36,14 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # The interpreter may copy this object. The counter is a list, so that all copies share it.
+        # The interpreter can copy this object. All copies share the counter, because it is a list.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return a truth value, and the change of the unknowns in this sweep.
+        """Count one sweep. Return the pair (converged, change).
 
-        The truth value is True if the iteration may end. ``old`` and ``new`` are the unknowns before and
-        after this sweep. ``previous`` is the change of the unknowns in the previous sweep.
+        ``old`` and ``new`` are the unknowns before and after this sweep. The change is the largest absolute
+        difference of ``old`` and ``new``. ``previous`` is the change in the previous sweep.
         """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
@@ -80,8 +80,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # Each sweep adds about the same number of correct digits. Emitted code iterates until twice as many
-    # digits are correct. Therefore emitted code needs about twice as many sweeps as the interpreter.
+    # Each sweep adds about the same number of correct digits. Because of SETTLED, the interpreter computes
+    # about half of the digits of emitted code. Therefore emitted code needs about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
@@ -96,7 +96,7 @@ def controlled_run(
     - the number of accepted and rejected steps,
     - the mean number of sweeps (iterations) for one system of implicit equations in one step.
 
-    The program must have an embedded solution. The error estimate is proportional to the step size to the
+    ``program`` must compute an embedded solution. The error estimate is proportional to the step size to the
     power ``order``. ``tolerance`` is both the relative and the absolute tolerance. ArithmeticError is raised
     if steps become too short, or if the process has used more than ``end`` seconds of CPU time.
     """
@@ -116,7 +116,7 @@ def controlled_run(
             new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
             norm = weighted(state, new, ends[EMBEDDED], tolerance)
         except (ArithmeticError, ValueError):
-            # The step fails. The infinite norm causes a new attempt with a shorter step.
+            # The step fails. An infinite error norm causes a new attempt with a shorter step.
             norm = math.inf
         if norm <= 1.0:
             state, now = new, last if length >= last - now else now + length
@@ -124,7 +124,7 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # The step size may not increase directly after a rejected step.
+        # Directly after a rejected step, the step size must not increase.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 
@@ -135,8 +135,8 @@ def weighted(
     """Return the weighted norm of the error estimate of a step.
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
-    The error estimate is ``after`` - ``lower``. Let m be the larger absolute value of a component in
-    ``before`` and ``after``. This component of the error estimate is divided by (1 + m) times ``tolerance``.
+    The error estimate is ``after`` - ``lower``. Each component of the error estimate is divided by (1 + m)
+    times ``tolerance``. Here m is the larger absolute value of this component in ``before`` and ``after``.
     The norm is the root mean square of the quotients. If ``after`` or ``lower`` is not finite, the norm is
     infinite.
 
