@@ -71,8 +71,8 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
-        # The carry is computed from the rounded sum, which is the value of the symbol ``total``. Without this
-        # symbol, ``total - old`` would be simplified to the increment, and the carry would be zero.
+        # The symbol ``total`` has the value of the rounded sum. If ``total`` were the formula of the sum,
+        # ``total - old`` would be simplified to the increment, and the carry would be zero.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -93,7 +93,7 @@ def with_carries(kernel: Kernel) -> Kernel:
 
 
 def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement, ...]:
-    """Return a body without the assignments whose values are not needed for ``outputs``."""
+    """Return ``body`` without the assignments that ``outputs`` do not need."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
     # The loop visits the last statement first. At each statement, ``needed`` contains all names that later
@@ -101,7 +101,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # A kernel lists its expressions, so a kernel with only this statement is formed.
+        # Only kernels have the method ``expressions``, so a kernel with this single statement is formed.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -147,7 +147,7 @@ class Increments:
                 return a + rest
         if e.op == "mul":
             for factor, base in (e.args, e.args[::-1]):
-                # With the factor f and the base b, f b - x = (f - 1) b + (b - x). Both differences on the
+                # For a factor f and a base b: f b - x = (f - 1) b + (b - x). Both differences on the
                 # right-hand side are computed without cancellation.
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:

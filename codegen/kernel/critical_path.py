@@ -1,17 +1,17 @@
-"""Shorten the critical path after each function call.
+"""Shorten the critical path of a step, the longest chain of dependent operations.
 
-The critical path is the longest chain of dependent operations. A processor can execute several products at
-the same time, but the operations of a chain must wait for each other. A step that consists of flows is one
-long chain: an angle, two trigonometric functions c_1 and c_2 of the angle, the rotated attitude, the new
-momentum, and the next angle.
+A processor can execute several products at the same time, but the operations of a chain must wait for each
+other. For example, a splitting step of a rigid body is one long chain: an angle, two trigonometric functions
+c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
 
-The two functions take long to compute. Therefore this module rewrites expressions, so that few operations
-wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1 and c_2. Then
+The functions c_1 and c_2 take long to compute. This module rewrites expressions to reduce the number of
+operations that wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1
+and c_2. Then
 
     k (m - g (d + c_1 v + c_2 w)) becomes k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
-The products in parentheses can be computed before c_1 and c_2 are known. The rewriting is exact in real
-arithmetic, but adds a few products. Therefore only the longest chains are rewritten.
+The terms in parentheses can be computed before c_1 and c_2 are known. In real arithmetic, both expressions
+are equal. The new expression has more products, so only the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 """Latencies of operations, in multiples of the latency of an addition.
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
-cycles. A call is assumed to evaluate a polynomial that approximates the function.
-``benchmarks/emitted.py`` measures the resulting steps.
+cycles. The latency of a call is that of a polynomial which approximates the function.
+``benchmarks/emitted.py`` measures the run times of emitted steps.
 
 The exact values matter little. If the latency of a division is set to 2 or 8, the code of five explicit
 methods does not change. If the latency of a call is set to 3 or 12, only the code of
@@ -38,25 +38,23 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""A chain is rewritten if it is shorter than the longest chain by at most this time. The unit is the latency
-of an addition.
+"""The largest difference between the longest chain and a rewritten chain, in latencies of an addition.
 
-If only the longest chain were rewritten, a slightly shorter chain could become the critical path. With
-the limits 0, 2 and 4, the emitted files are the same. If all chains are rewritten, the emitted splittings for
-fast_heavy_top change (``orderconds regenerate --check``).
+If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The emitted
+files are the same for the limits 0, 2 and 4. Without a limit, the emitted splittings for fast_heavy_top
+differ.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product has at most one late factor, which is usually the result of a slow
-operation.
+"""A sum of products. A product has at most one late factor, a factor that depends on a slow operation.
 
-The keys are the late factors. The product without a late factor has the key None. An entry contains a sign,
+The keys are the late factors. The product without a late factor has the key None. A value contains a sign,
 the product of the factors that are constant in a run, and the product of the other factors.
 """
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the length of the critical path: the time of a step with unlimited parallel operations."""
+    """Return the length of the critical path in latencies of an addition."""
     # A symbol is ready when its assigned value is ready. Inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
@@ -75,7 +73,6 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
-        # Later assignments may read this symbol, so its time is stored.
         ready[let.value.space.sym(let.name).id] = times[-1]
     # No value is ready before its arguments, and assignments with equal times keep their order. So each name
     # is assigned before it is read.
@@ -96,8 +93,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves these products out of the loop over the steps. If ``spread`` is false, the other
-    operations are not rewritten.
+    because a compiler moves these products out of the loop over the steps. If ``spread`` is false, no other
+    operations are rewritten.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
@@ -122,18 +119,16 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # In this list, arguments come before the nodes that use them. A forward pass computes when each node
-        # is ready.
+        # ``walk`` yields the arguments of a node before the node.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # A backward pass computes ``follow``.
         for node in reversed(self.nodes):
-            # If no operation reads a node, the node is a root, and its entry in ``follow`` is 0.
+            # If no operation reads a node, its entry in ``follow`` is 0.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
-        # Every chain leads to a root, so the longest chain ends at the root that is ready last.
+        # The longest chain ends at the root that is ready last.
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
@@ -151,7 +146,7 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # ``_make`` does not simplify, so the rounding errors do not change.
+            # ``_make`` does not simplify. A simplification would change the rounding errors.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -166,28 +161,24 @@ class _Chains:
     def _ends(self) -> frozenset[int]:
         """Return the ids of the nodes that are expanded to sums of products.
 
-        Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        At least one operation that reads the node cannot be included in the expansion.
+        Each of these nodes is on a long chain of operations, and depends on a slow operation. At least one
+        operation that reads the node cannot be expanded together with the node.
         """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # A chain through ``arg`` and ``node`` is rewritten only if it is almost as long as the
-                # longest chain (:data:`SLACK`).
+                # The chains through ``arg`` and ``node`` are too short to be rewritten.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # A square ``arg * arg`` is not linear in ``arg``. In this case ``others`` is empty, and
-                # ``linear`` is false.
+                # For a square ``arg * arg``, which is not linear in ``arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # Let r be the result of a slow operation in ``arg``, and let r have the level ``late``. A
-                # factor of a lower level does not contain r, so the product of ``arg`` and this factor is
-                # linear in r.
+                # The late factors of ``arg`` have the level ``late``. If the other factor of a product has a
+                # lower level, the product is linear in these late factors.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If ``node`` has the same level and is linear in r, the sum for ``node`` includes the sum for
-                # ``arg``. Otherwise ``arg`` is expanded separately.
+                # A linear ``node`` of the level ``late`` is expanded together with ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -195,11 +186,9 @@ class _Chains:
     def _sum(self, node: Expr, level: int) -> Sum:
         """Return an expression as a sum of products (:data:`Sum`).
 
-        The late factors are results of slow operations of the given ``level``. Results of slow operations of
-        a lower level count as ordinary factors.
+        The late factors are the factors of the given ``level`` (:meth:`_measure`).
         """
-        # The sum may contain ``self.new[node.id]``. This entry changes when ``node`` is expanded, so the key
-        # contains the id of the entry.
+        # The sum can depend on ``self.new[node.id]``, which changes when ``node`` is expanded.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -207,37 +196,35 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # A node with a level below ``level`` contains no late factor. It is a single term with the key None.
+        # A node with a lower level contains no late factor.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
             return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
-            # ``_sum`` stores its results for later calls, so terms are added to a copy.
+            # ``_sum`` stores its results, so terms are added to a copy.
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y can be
-                # computed before c is known.
+                # For a late factor c, c x + c y = c (x + y). The sum x + y can be computed before c is known.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
-            # If one argument contains no late factor, this argument is called ``a``, and the product is
-            # expanded.
+            # The product is expanded if one of its arguments, called ``a``, contains no late factor.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
-                # Fixed factors are collected separately, because their product is the same in every step.
+                # Factors that are constant in a run are collected separately (:data:`Sum`).
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Any other node cannot be expanded, so the node itself is a late factor (:data:`Sum`).
+        # A node that cannot be expanded is itself a late factor.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of two entries that have the same late factor (:data:`Sum`)."""
+        """Return the sum of two values of a :data:`Sum` that have the same late factor."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -262,10 +249,10 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return a product in which the factors that are constant in a run are multiplied first."""
+        """Return ``node``. In a product, the factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
-        # c1 (c2 x) = (c1 c2) x for fixed c1 and c2. Both orders of the factors are tried.
+        # For fixed c1 and c2, c1 (c2 x) becomes (c1 c2) x. Both orders of the factors are tried.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
@@ -274,7 +261,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Return ``node``, after its times and the times of its new arguments are computed."""
+        """Call :meth:`_measure` for all new nodes of the expression ``node``, and return ``node``."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

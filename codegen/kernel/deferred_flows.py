@@ -1,9 +1,9 @@
-"""Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
+"""Flows of a splitting method that are joined across steps (:class:`codegen.ir.kernel.Deferred`).
 
 A splitting method composes flows of parts of the vector field. If a step ends and the next step begins with a
 flow of the same part, these two flows are joined into one. The leading flow of the first step is applied
-separately, at the beginning of a run. If a flow commutes with all other flows, the flows of all steps are
-joined into one flow after the last step. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
+separately, at the beginning of a run. A flow that commutes with all other flows is removed from the steps.
+After the last step, one flow of the total duration replaces the removed flows. Both changes are exact.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Parted:
     - ``begin`` is executed before the first step. It is None if no flows are joined.
     - ``core`` is executed in each step. A joined flow in ``core`` includes the leading flow of the next step.
       The duration of a joined flow is the variable :data:`LEAD`. In the last step of a run, LEAD is
-      ``last`` * h, because no step follows. In all other steps, LEAD is ``later`` * h.
+      ``last`` * h, the duration without a next step. In all other steps, LEAD is ``later`` * h.
     - ``finish`` is executed after the last step. It is None if no flow is deferred to the end of the run. The
       flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """
@@ -51,34 +51,32 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # ``commute`` compares two flows numerically, because the symbolic Lie bracket of commuting flows may not
-    # simplify to zero.
+    # ``commute`` applies two flows in both orders at sample points. The symbolic Lie bracket of commuting
+    # flows does not always simplify to zero.
     commute = commuting(scene)
     # If a flow reads a stage time or has a duration other than h, all flows of its part remain in the steps.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # The flows of parts in ``free`` commute with all other flows, so they can be applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If ``kept`` is empty, the core would have no flows. If both ``joined`` and ``spun`` are empty, no flow
-    # can be deferred.
+    # If ``kept`` is empty, the steps would have no flows. If ``joined`` and ``spun`` are empty, no flow can
+    # be deferred.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # The durations are the same in all entries of ``joined``, so they are read from the first entry.
+    # All entries of ``joined`` contain the same two durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # A flow in ``tails`` belongs to the same part as an earlier leading flow. All leading flows belong to
-    # different parts, so no flow is in both ``heads`` and ``tails``.
+    # ``heads`` contains leading flows, which belong to different parts. A flow in ``tails`` follows a leading
+    # flow of the same part, so no flow is in both sets.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
-    # The core does not contain the flows in ``heads``, because the final flows of the previous step include
-    # them. These final flows therefore have a variable duration.
+    # The core omits the flows in ``heads``, because the flows in ``tails`` of the previous step include them.
+    # The duration of a flow in ``tails`` is the variable ``lead``.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # Let X be the vector field of a part in ``free``. The flows of this part in n steps are joined into one:
-    # exp(h X)^n = exp(n h X).
+    # For the vector field X of a part in ``free``, one flow replaces the flows of n steps: exp(h X)^n =
+    # exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # ``verify`` checks that each new program is well-formed.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -131,14 +129,12 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # ``tail`` has the index ``k`` from the end of ``kept``, and the index ``j`` from the beginning.
+            # The index ``k`` counts from the end of ``kept``, and ``j`` counts from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
-            # If i = j, ``head`` and ``tail`` are the same flow, so there are no two flows to join.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows read the same duration variable. Pairs whose durations differ from those of the first
-    # pair are not joined.
+    # All joined flows read the same duration variable, so only pairs with equal durations are joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
@@ -160,14 +156,14 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
-    # All stage times are included. The compiler omits the stage times that no flow reads.
+    # ``body`` begins with the assignments of all stage times. The compiler removes unused assignments.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
-    # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.
+    # The inputs t and h have the kind REAL. All other inputs form the state.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        # FlowOf has a duration c h with a fixed number c. FlowFor reads its duration from a variable.
+        # The duration of FlowOf is c h with a number c. FlowFor reads its duration from a variable.
         operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         args = (*state, *letter.time)
         if duration is not None:

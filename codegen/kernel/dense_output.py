@@ -1,8 +1,9 @@
 """Kernels of a continuous extension, which gives the state at any time inside a step.
 
-Let y be the state at the beginning of the step. The solution at the time t + theta h is exp(sigma(theta)).y,
-where sigma is a polynomial in theta with values in the Lie algebra. One kernel computes the coefficients of
-sigma from y. A second kernel computes exp(x).y for an element x of the Lie algebra.
+Let y be the state at the beginning of a step from t to t + h. For 0 <= theta <= 1, the solution at the time
+t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra. One kernel
+computes the coefficients of sigma from y. A second kernel computes exp(x).y for an element x of the Lie
+algebra.
 """
 
 from __future__ import annotations
@@ -23,18 +24,17 @@ COORDINATES = "coordinates"
 
 
 def continuous(program: Program, problem: Problem, order: int) -> Continuous:
-    """Return the kernels of a continuous extension, which gives the state at the time t + theta h in a step.
+    """Return the kernels of a continuous extension, which gives the state at any time inside a step.
 
-    One kernel computes the coefficients of a polynomial sigma(theta) with values in the Lie algebra. These
-    coefficients are the outputs of ``program``. The other kernel computes exp(x).y for x = sigma(theta).
+    The outputs of ``program`` are the coefficients of the polynomial sigma(theta) with values in the Lie
+    algebra. One kernel computes these coefficients. The other kernel computes exp(x).y for x = sigma(theta).
     ``order`` is the order of accuracy of the extension.
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # The option COMBINED outlines no functions. The name of an outlined function could already occur in the
-    # kernel of the step.
+    # With COMBINED the kernel calls no outlined functions, whose names could occur in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
-    # The program has one output for each power of theta, starting with theta^1.
+    # Because sigma(0) = 0, the outputs are the coefficients of theta^1, ..., theta^degree.
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 
@@ -57,6 +57,6 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
 
     schedule = Assignments((), ends, {}, name)
     body = tuple(s for s in schedule.run() if isinstance(s, Let))
-    # The coordinates of x are inputs of the kernel, so they form an additional field.
+    # The coordinates of x are inputs, too.
     fields = (*kernel.state, Field(COORDINATES, names, "coordinates in the Lie algebra"))
     return Kernel(kernel.name, fields, kernel.scalars, body, schedule.outputs)

@@ -1,8 +1,8 @@
 """Implicit equations u = g(u) of a step, and the matrix of Newton's method.
 
-The values g(u) are called images, and Newton's matrix is 1 - g'(u). If the equations have the form r(u) = 0,
-r is called the residual, and Newton's matrix is -r'(u). At the solution, the images are equal to the unknowns
-u. Therefore the statements after the equations read the unknowns in place of the images.
+The values g(u) are called images, and Newton's matrix is 1 - g'(u). The equations can also have the form
+r(u) = 0. Then r is called the residual, and Newton's matrix is -r'(u). One iteration of a solver is called a
+sweep.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from codegen.passes.rewrite import uses
 
 MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded. With more
-unknowns, a sum that is constant in a step remains a single factor.
+unknowns, sums that do not change during the iteration are not expanded.
 
-With few unknowns, the single factors would occupy registers that the sweeps need. With many unknowns, the
-expanded matrix would make the code longer. Near the limit the choice matters little. For example, the kernel
-of vcf:cf4 on dipole has 12 unknowns. It has 472 assignments with the expanded matrix, and 439 with single
-factors.
+For few unknowns, the values of these sums would occupy registers that the sweeps need. For many unknowns, an
+expanded matrix would make the code longer. Near the limit, both forms have similar lengths. For example, the
+kernel of vcf:cf4 on dipole has 12 unknowns. It has 472 assignments with the expanded matrix, and 439 without
+the expansion.
 """
 
 LONGEST_MATRIX = 1500
-"""The largest number of operations for the exact matrix of Newton's method. A longer matrix is replaced by
-the matrix to first order in h.
+"""The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
+replaced by its expansion to first order in h.
 
-Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. A
-limit of 6000 gives the same kernels.
+Most matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. The
+emitted kernels are the same for a limit of 6000.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
@@ -52,13 +52,12 @@ class Block:
     """A block of equations u = g(u) as expressions.
 
     - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
-    - ``images`` are the values g(u). The function :func:`compared` replaces these values by the residuals
-      r(u).
+    - ``images`` are the values g(u), or the residuals r(u) if the equations are r(u) = 0.
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
-    - ``leading`` is true for the simplified Newton method.
-    - ``changes`` are the names of the variables that contain the changes of the unknowns in the last sweep.
-    - ``kept`` contains values that each sweep computes for statements after the loop. Each value has a name
-      and an expression.
+    - ``leading`` is true for the simplified Newton method, which computes the matrix before the first sweep.
+    - ``changes`` has one name for each unknown: the variable for the change of the unknown in the last sweep.
+    - ``kept`` contains names and expressions. Each sweep computes these expressions, because statements after
+      the loop read them.
     """
 
     label: str
@@ -72,21 +71,22 @@ class Block:
     kept: tuple[tuple[str, Expr], ...] = ()
 
     def targets(self) -> tuple[Expr, ...]:
-        """The expressions that each sweep computes: the images, and the expressions in ``kept``."""
+        """Return the expressions that each sweep computes: the images, and the expressions in ``kept``."""
         return (*self.images, *(x for _, x in self.kept))
 
 
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return the block ``entered`` with residuals in place of images, and with Newton's matrix.
+    """Return the block ``entered`` with residuals r(u) in place of the images g(u), and with Newton's matrix.
 
-    The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals, or if the residuals cannot be expanded in h.
+    The matrix is -r'(u), expanded to first order in h. The result is None if ``block`` has no residuals, or
+    if the residuals cannot be expanded in h.
 
-    Statements after the loop read values that the loop body computes. The last sweep computes these values
-    before it changes the unknowns. Therefore first-order corrections are added to the values in ``env``. If a
-    correction costs at least half as much as a new computation, the value is computed again.
+    ``env`` contains the value of each variable of ``program``. Statements after the loop read values that the
+    loop body computes. The last sweep computes these values before it changes the unknowns. Therefore a
+    first-order correction is added to each of these values in ``env``. If a correction costs at least half as
+    much as a new computation, the value is computed again after the loop.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -107,7 +107,7 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # A correction is added to the value, so the value must be in a vector space.
+        # Corrections are added to values in vector spaces only.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -124,7 +124,7 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
-    # Newton's method for r(u) = 0 changes u by (-r')^{-1} r, so the matrix is -r'.
+    # One step of Newton's method for r(u) = 0 adds (-r')^{-1} r to u.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -138,13 +138,13 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the sums and differences among the values of all variables that are not in ``inside``."""
+    """Return the sums and differences in ``env``, without the values of the variables in ``inside``."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
-    """Return the variables that are read by the statements after the equations ``block``."""
+    """Return the variables that the statements after ``block`` read."""
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
@@ -152,7 +152,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return the values that contain neither h nor an unknown."""
     moving = {*unknowns, "h"}
-    # ``walk`` yields the arguments of a node before the node, so ``depends`` already contains the arguments.
+    # ``walk`` yields the arguments of a node before the node.
     depends: dict[int, bool] = {}
     for node in walk(values):
         own = node.op == "sym" and node.payload in moving
@@ -165,14 +165,17 @@ def _operations(roots: Iterable[Expr]) -> int:
 
 
 def with_matrix(block: Block, solver: str) -> Block:
-    """Return the block with the matrix of Newton's method. The matrix is expanded to first order in h if
-    ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix is too long."""
+    """Return the block with the matrix of Newton's method.
+
+    The matrix is expanded to first order in h if ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix has
+    more than LONGEST_MATRIX operations of its own.
+    """
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # The iteration with the first-order matrix needs more sweeps, but each sweep is far shorter.
+    # With the first-order matrix the iteration needs more sweeps, but a sweep is much shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
-    # A small inverse consists of formulas. A larger matrix is inverted at run time by elimination.
+    # A small matrix is inverted by formulas, and a larger matrix by elimination at run time.
     inverted = len(rows) <= newton.SMALL
     return replace(
         block, matrix=newton.inverse(rows) if inverted else rows, leading=leading, inverted=inverted
@@ -180,35 +183,34 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations in the matrix ``rows`` that do not also occur in ``images``."""
-    # Each sweep computes the images in all cases, so operations that also occur in the images cost nothing.
+    """Return the number of operations in the matrix ``rows`` that do not occur in ``images``."""
+    # Each sweep computes the images g(u) anyway, so their operations are not counted.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
 
 class Solved:
-    """Replaces the images g(u) of a solved block by its unknowns u, because u = g(u) at the solution."""
+    """Replaces the values g(u) by the unknowns u, after the equations u = g(u) are solved."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image that is a symbol or a number is not replaced, because this would save no operation.
+            # For a symbol or a number, the replacement would save no operation.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return ``value`` with each image g(u) replaced by the equal unknown."""
+        """Return ``value`` with the components of g(u) replaced by the components of u."""
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
-        # The walk stops at nodes whose replacements are known: at images g(u), and at nodes that are already
-        # rebuilt.
+        # ``walk`` stops at nodes with a known replacement.
         for node in walk([root], stop=lambda n: n.id in self.known):
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
-                # The old node is returned if possible, so that equal nodes remain shared.
+                # If no argument changes, the old node is used, because other expressions share it.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

@@ -60,12 +60,12 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small linear problem, on which the compiler passes are verified."""
+    """Return a small linear problem to verify the compiler passes. A depends on t if ``timed`` is true."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The entries are different polynomials in t, so the values of A at different times do not commute.
+    # The values of A at different times do not commute, so the verification covers the brackets, too.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -131,7 +131,7 @@ class _Builder:
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.moments[var] = self.domain.space.sym(var.name)
-        # The method has no step control, so the program has a single output.
+        # Without step control, the new state is the only output of the program.
         ((_, end),) = self.program.outputs
         exponents: list[Element] = []
         # A does not depend on the stage points, so the stage points are not computed.
@@ -139,8 +139,7 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # The matrices h A(t_i) already contain h. A remaining power of h would be an error in the
-            # program.
+            # An exponent is a combination of the matrices h A(t_i) without a further power of h.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -165,7 +164,7 @@ class _Builder:
             assign = statements[end]
             if not isinstance(assign.operation, ActExp):
                 what = f"the operation {assign.operation.name} is not available for large matrices"
-                raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
+                raise refused(self.scene, what, "a method that composes exponentials of Lie algebra elements")
             x, end = assign.args
             # The loop follows the step backwards, so each exponent is inserted at the beginning of the list.
             result.insert(0, x)
@@ -175,17 +174,16 @@ class _Builder:
         """Compute and store the value of the variable that an assignment sets."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
-        # Several exponents may need the same value, but each value is computed only once.
+        # If several exponents contain the same variable, it is computed only once.
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A(t) is the matrix h A(t) divided by h, so ``power`` is 1.
+            # The value A(t) = (h A(t))/h^p has the power p = 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
                 self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
-            # The value zero contains no matrix, so its dictionaries of coefficients are empty.
             case Zero():
                 self.values[target] = _Value(0)
             case Bracket(dual=False):
@@ -216,14 +214,13 @@ class _Builder:
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
             raise AssertionError(powers)
-        # A sum without terms is zero. Its power of h may be any number, and 0 is chosen.
+        # A sum without terms is zero, so its power of h does not matter.
         total = _Value(next(iter(powers), 0))
         for c, x in given:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A term with the coefficient zero is removed, because it would cost a matrix product. So
-                    # the dictionaries of a zero sum are empty (``is_zero``).
+                    # A term with the coefficient zero would cost a matrix product.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -232,8 +229,8 @@ class _Builder:
         """Return [x, y].
 
         If x and y contain no commutators, :func:`_difference` subtracts a multiple of y from x. The result is
-        usually a combination of differences A(t_i) - A(t_j), which are small. So the norm of the commutator
-        has a smaller bound.
+        usually a combination of differences A(t_i) - A(t_j), which are small for small h. This reduces the
+        bound of the norm of [x, y].
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -241,13 +238,13 @@ class _Builder:
         if x.is_zero or y.is_zero:
             return _Value(power)
         pair = self.element(x), self.element(y)
-        # Equal commutators share one index, so emitted code computes a shared commutator once.
+        # Equal commutators have the same index, so emitted code computes them only once.
         if pair not in self.commutators:
             self.commutators.append(pair)
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
 
     def inverse(self, x: _Value, y: _Value, order: int) -> _Value:
-        """Return the truncated series of dexp^{-1}_x y. Its last term has ``order`` nested brackets."""
+        """Return the series of dexp^{-1}_x y without terms of more than ``order`` nested brackets."""
         terms, power = [(Coefficient(Number.rational(1)), y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(x, power)
@@ -257,10 +254,9 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value of the algebra as an :class:`Element`: a letter plus commutators.
+        """Return ``value`` as an :class:`Element`, the sum of a letter and of multiples of commutators.
 
-        A letter is a linear combination of the matrices h A(t_i). Equal letters of a step are stored only
-        once.
+        The letter is a linear combination of the matrices h A(t_i). Equal letters are stored only once.
         """
         letter = None
         if value.nodes:
@@ -276,7 +272,7 @@ class _Builder:
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
 
         def now(entry: Entry) -> Entry:
-            # A tuple contains numbers, in which no parameter occurs.
+            # An entry that is a tuple contains only numbers and no parameters.
             if isinstance(entry, tuple):
                 return entry
             (root,) = evaluate([entry], self.domain, values)
@@ -296,19 +292,15 @@ class _Builder:
 
 
 def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
-    """Return the variables that must be computed for the algebra element ``var``, including ``var``.
-
-    Each variable comes after the variables from which it is computed.
-    """
+    """Return ``var`` and all variables from which ``var`` is computed, in the order of their computation."""
     order: list[Var] = []
 
     def visit(v: Var) -> None:
-        # An input of the program has no statement and is not computed. A variable that is already in
-        # ``order`` is not listed again.
+        # The inputs of the program have no statements.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:
-            # A(t) does not depend on the state, so the stage points and their statements are left out.
+            # A(t) does not depend on the state, so the stage points are not computed.
             if arg.kind is not Kind.POINT:
                 visit(arg)
         order.append(v)
@@ -318,16 +310,14 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return x - c y and y. Their commutator is [x, y] for every number c.
+    """Return x - c y and y for a number c. The commutator of x - c y and y is [x, y].
 
-    If possible, c is chosen so that the coefficients of x - c y add up to zero. Otherwise c is 0.
+    If possible, the coefficients of x - c y add up to zero. If no c has this property, c is 0.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x already add up to zero, nothing is subtracted. If the coefficients of y add up
-    # to zero, no c can change the sum of the coefficients.
+    # If the coefficients of x add up to zero, c is 0. If those of y add up to zero, no c has the property.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
-    # The coefficients of x - ``ratio`` * y add up to zero.
     ratio = totals[0] / totals[1]
     nodes = dict(x.nodes)
     for node, c in y.nodes.items():
