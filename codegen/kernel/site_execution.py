@@ -1,4 +1,4 @@
-"""The symbolic execution of one sweep over the sites of a lattice."""
+"""Derives the formulas of one sweep over the sites of a lattice, by execution of a program on symbols."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Their results are computed again in each sweep that needs them. Only the sums that
-:mod:`codegen.kernel.site_plan` selects are stored.
+"""Cheap operations. Each sweep that needs their results computes the results again. The exceptions are the
+linear combinations that :mod:`codegen.kernel.site_plan` selects for storage.
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
@@ -39,8 +39,8 @@ class Content:
     - ``stored`` contains pairs (rows, variable). The sweep stores the variable in these rows.
     - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
       g(u).
-    - ``measured`` is empty or contains two rows. At each site, the first row stores the largest change of an
-      unknown. The second row stores the largest absolute value of an unknown.
+    - ``measured`` is empty or contains two rows. For each site, the first row stores the largest change
+      among the unknowns of the site. The second row stores the largest absolute value of these unknowns.
     """
 
     about: str
@@ -56,12 +56,12 @@ def blocks_of(problem: Problem) -> tuple[slice, ...]:
 
 
 class Execution:
-    """The symbolic execution of one sweep.
+    """Executes the assignments of one sweep on symbols. The results are the formulas of the sweep.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
-    - ``coupled`` contains indices of blocks of the state. The field reads these blocks at neighbours.
-    - ``totals`` are the names of sums over all sites.
+    - ``coupled`` contains the indices of the blocks of ``problem.state`` that the field reads at neighbours.
+    - ``totals`` maps the variable of each sum over all sites to the name of the sum.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class Execution:
         self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
-        # Computed values must not use names that users have chosen.
+        # These names are in use, so computed values get other names.
         self.taken = {*problem.symbols, *problem.runtime, "h", TIME, *totals.values()}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}
@@ -116,7 +116,7 @@ class Execution:
         for target, value in zip(assign.targets, results, strict=True):
             self.env[target] = value
             for k, x in enumerate(flatten(target.kind, value)):
-                # If several variables have the same expression, the first variable names the expression.
+                # If several variables share an expression, the first variable gives the expression its name.
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _evaluated(
@@ -131,15 +131,15 @@ class Execution:
         if isinstance(operation, Energy):
             return (values[0],)
         f = tuple(values)
-        # On T*G the result is a pair of vectors of the same length.
+        # On T*G, ``f`` contains two vectors of the same length.
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)
 
     def _roots(self, operation: Operation) -> list[Expr]:
         """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
         if isinstance(operation, Energy):
-            # The energy of a lattice is a sum over sites. The formula gives the term of one site.
+            # This formula is the contribution of one site to the energy of the lattice.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # The energy is differentiated at a point whose coordinates are symbols, so the results are formulas.
+        # The coordinates of the point are symbols, so the results are formulas.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -166,7 +166,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The compiler does not know which neighbours exist, so the numbers in ``EXISTS`` remain symbols.
+        # Only at run time is it known which neighbours exist, so the flags of ``EXISTS`` remain symbols.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # A ghost is a value that replaces the value of a neighbour outside the lattice.
@@ -182,14 +182,14 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return the symbols of a variable at a neighbour, and record their loads.
+        """Return symbols for a variable at a neighbour, and record the loads of these symbols.
 
-        ``ghosts`` are the values of the variable if the neighbour lies outside the lattice.
+        If the neighbour lies outside the lattice, the values ``ghosts`` replace the variable.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A symbol has only one ghost. The ghosts of the old state may differ between stages, because they may
-        # depend on time. Then the old state needs new symbols. Other variables always get new symbols.
+        # Each symbol has one ghost. Ghosts that depend on time differ between stages. In this case, the old
+        # state gets new symbols for each stage. Other variables always get new symbols.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -211,15 +211,15 @@ class Execution:
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
-        # Ghosts are needed only for neighbours that the formulas read.
+        # Only values that the formulas read at neighbours need ghosts.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # ``around`` has no fixed order, because ``read`` is a set. Therefore the ghosts have the order of
-            # ``loads``.
+            # Output k of ``outside`` belongs to load k in ``Sweep.read_outside``. Therefore the ghosts
+            # need the order of ``self.loads``.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
-            # The formulas of the ghosts may read further values at the site. These values are loaded, too.
+            # The ghosts may depend on further values at the site, so these values are loaded, too.
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)
@@ -241,7 +241,7 @@ def kernel_of_sweep(
     taken: set[str],
     totals: tuple[str, ...] = (),
 ) -> Kernel:
-    """Return the kernel that computes the expressions ``ends``.
+    """Return the kernel that computes the expressions ``ends`` at one site.
 
     ``symbols`` are the names of the numbers that the sweep reads. ``totals`` are the names of sums over all
     sites. ``hints`` maps the ids of expressions to preferred names. ``taken`` contains all names in use. This

@@ -25,20 +25,21 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting method on a lattice.
 
-    MethodError is raised in three cases:
+    MethodError is raised in four cases:
     - A part of the vector field has no exact flow.
-    - The tableau does not fit the parts of the scene.
+    - The format of the tableau or its number of parts does not fit the scene.
     - The field depends on time and the scene is not Hamiltonian.
+    - All parts depend on time.
     """
     assert scene.sites is not None
     if not scene.autonomous and not scene.paired:
         raise MethodError(
             f"a splitting cannot be used on {scene.name}, because the field of this lattice depends on t",
-            expected="a field that does not depend on t, or a HamiltonianSiteScene",
+            expected="a field that does not depend on t, or a Hamiltonian lattice (HamiltonianSiteScene)",
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # The kernel is built from ``word``. The program is a list of the flows for reports.
+    # The program only lists the flows for reports. The kernel is built from ``word``.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -61,8 +62,8 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
     flows: list[SiteFlow] = []
     for flow, duration in listed:
         assert isinstance(flow, FlowOfPart)
-        # All flows of a part use one sweep. They differ only in the duration and in the colour (even or odd
-        # pairs of sites).
+        # One sweep computes all flows of a part. These flows differ only in their duration and in their
+        # colour (even or odd pairs of sites).
         if flow.part not in index:
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))

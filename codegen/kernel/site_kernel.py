@@ -1,8 +1,8 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
-evaluated, and the next sweep evaluates the field. To save memory, some sums of vectors replace one of their
-terms in the workspace. All other sums are computed again in each sweep that needs them.
+evaluated, and the next sweep evaluates the field. Sums of vectors are computed again
+in each sweep that needs them. A sum is stored only if this saves the storage of one of its terms.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 class SiteMethod:
     """A compiled method for a lattice.
 
-    ``problem`` is the problem of one site with fixed neighbours. For a splitting method, it is the problem of
-    the whole lattice. ``lowered`` is the program of a step before the compiler passes, and ``program`` is the
-    program after the passes. ``trace`` contains a report of each pass that changed the program. ``kernel``
-    contains the sweeps of the step.
+    ``problem`` describes one site, and the states of its neighbours are parameters. For a splitting method,
+    ``problem`` describes the whole lattice. ``lowered`` is the program of a step before the compiler passes,
+    and ``program`` is the program after the passes. ``trace`` contains a report of each pass that changed the
+    program. ``kernel`` contains the sweeps of the step.
     """
 
     problem: Problem
@@ -60,8 +60,8 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     If ``newton`` is true, Newton's method solves the implicit equations. The lattice must then be
     one-dimensional.
 
-    A step may evaluate the field, the energy and its derivatives, or the exact flows of a splitting. Taylor's
-    method is permitted, too. If a step evaluates other formulas of the scene, MethodError is raised.
+    Splitting methods and Taylor's method are permitted. Other methods may evaluate the field, the energy, and
+    the derivatives of the energy. If a method evaluates other formulas of the scene, MethodError is raised.
     """
     lowering = lowering_of(method.family)
     # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
@@ -69,7 +69,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
-    # The passes cannot use a lattice, so they use the problem of one site with fixed neighbours.
+    # The compiler passes need the problem of a single site. The states of its neighbours are parameters.
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)
@@ -80,8 +80,12 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     # An operation that evaluates no formulas of the scene reads no neighbours, so it is permitted.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
-        what = f"the operation {other[0].name} of {method.label} has no code for lattices"
-        raise refused(scene, what, "a method that evaluates only the field, or the derivatives of H")
+        what = f"the operation {other[0].name} of {method.label} is not available on lattices"
+        raise refused(
+            scene,
+            what,
+            "a method that evaluates only the field, or H and its derivatives",
+        )
     return SiteMethod(
         problem, lowered, program, trace, site_kernel(with_sums(program, problem), problem, newton)
     )
@@ -99,15 +103,14 @@ def site_kernel(program: Program, problem: Problem, newton: bool = False) -> Ker
 
 
 def taylor_kernel(program: Program, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel of Taylor's method of the given degree on the problem of one site."""
+    """Return the kernel of Taylor's method of the given degree. ``problem`` describes one site."""
     assert problem.sites is not None
     return _kernel(program, problem, TaylorSweeps(program, problem, problem.sites, degree).step())
 
 
 def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
     assert problem.sites is not None
-    # The states of the neighbours are run-time inputs of the problem of one site. A lattice reads these
-    # states from its arrays.
+    # The sweeps read the states of neighbours from arrays, so these states are not arguments of the step.
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
     about = "coordinates of one site; an array of states has one row for each coordinate"
     name = "y" if problem.paired else problem.state[0].name

@@ -1,9 +1,8 @@
-"""The matrix of Newton's method for implicit equations on a chain, which is a one-dimensional lattice.
+"""The matrix of Newton's method for implicit equations u = g(u) on a chain, a one-dimensional lattice.
 
-The matrix is computed to first order in h. Each unknown u of a site satisfies an equation u = g, and g is
-called the image of u. The image depends on the unknowns of the site and of its two neighbours, because the
-field reads the stages of the neighbours. The images are differentiated with respect to the unknowns of all
-three sites.
+The matrix is the derivative of u - g(u) with respect to u, to first order in the step size h. The field reads
+the stages of neighbours. Therefore g(u) at a site depends on the unknowns of the site and of its two
+neighbours. The value g(u) is called the image of the unknown u.
 """
 
 from __future__ import annotations
@@ -34,13 +33,13 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """Differentiates the images g(u) of one system of equations u = g(u). The derivatives are taken with
-    respect to the unknowns of a site and of its left and right neighbours.
+    """Differentiates g for one system of equations u = g(u). The derivatives are taken with respect to the
+    unknowns of a site and of its left and right neighbours.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` contains the variables of the state at the beginning of the step.
     - ``makers`` maps each computed variable to its assignment.
-    - ``coupled`` contains indices of blocks of the state. The field reads these blocks at neighbours.
+    - ``coupled`` contains the indices of the blocks of ``problem.state`` that the field reads at neighbours.
     """
 
     problem: Problem
@@ -58,10 +57,11 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix of Newton's method for the equations ``solve``.
 
-        ``places`` contains the attributes ``size``, ``residual``, ``border`` and ``matrix`` of the result.
+        ``places`` contains ``size``, ``residual``, ``border`` and ``matrix`` of the class
+        :class:`codegen.ir.site_step.SiteNewton`.
 
-        MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
-        the field at another stage.
+        MethodError is raised if the lattice is not a chain of nearest neighbours, or if the equations contain
+        nested evaluations of the field.
         """
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(
@@ -72,27 +72,25 @@ class Linearisation:
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         self.inside = {t for assign in solve.body for t in assign.targets}
-        # The images of one site contain symbols for the unknowns of the site and of its neighbours.
+        # At one site, g(u) contains symbols for the unknowns of the site and of its neighbours.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
-        # The images are differentiated with respect to the unknowns of the left neighbour, the site and the
-        # right neighbour, in this order.
+        # The columns belong to the unknowns of the left neighbour, the site and the right neighbour.
         rows = jacobian(leading_terms(images), [s for k in self._columns() for s in self._unknowns(solve, k)])
         space = self.domain.space
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
-            # If the field does not read a neighbour, ``row`` has no columns for this neighbour, and the
-            # block of this neighbour is zero.
+            # If the field does not read a neighbour, ``row`` contains no derivatives for this neighbour. The
+            # matrix block of the neighbour is zero.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The matrix is the unit matrix minus the derivative of g. The unit matrix occurs only in
-                    # the block of the site itself.
+                    # The derivative of u is the unit matrix. It occurs only in the block of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
-        # ``self.loads`` contains all numbers in the images. Only those that the derivatives read are kept.
+        # The derivatives of g need only some of the numbers that g reads.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
         loads = tuple(load for load in self.loads.values() if load.symbol in read)
         residual, border, matrix = first
@@ -120,8 +118,9 @@ class Linearisation:
         return name
 
     def value(self, var: Var, site: int) -> Value:
-        """Return an expression for the value of a variable at a site. ``site`` is :data:`OWN`, or the index
-        of a neighbour.
+        """Return an expression for the value of a variable at a site.
+
+        ``site`` is :data:`OWN` for the site itself, or the index of a neighbour.
         """
         # The same variable has different values at the site and at its neighbours.
         key = (site, var)
@@ -145,7 +144,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # Single numbers such as the time have no rows. All other variables have rows.
+        # Only real variables such as the time have no rows.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -157,13 +156,12 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a site. The field reads the stage values of the site and of its neighbours."""
-        # The field at a neighbour reads sites at distance 2. If the images contained this field, the matrix
-        # would not be block-tridiagonal.
+        # The field at a neighbour reads sites at distance 2, so the matrix would not be block-tridiagonal.
         if site != OWN:
             raise MethodError(
-                "Newton's method cannot solve for stages that depend on the field at other stages",
+                "on a chain, Newton's method cannot solve equations with nested evaluations of the field",
                 where=self.problem.name,
-                expected="a method whose stages do not depend on the field at other stages",
+                expected="a method that evaluates the field only at points without field values",
                 hint="use the option --solver fixed-point",
             )
         domain, number = self.domain, len(self.problem.state)
@@ -179,8 +177,8 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
-                    # If the neighbour exists (``exists`` is 1), the result is its value x. If it lies outside
-                    # the lattice (``exists`` is 0), the result is the value g that replaces x.
+                    # If the neighbour exists (``exists`` is 1), the result is the value x of the neighbour.
+                    # Outside the lattice (``exists`` is 0), the result is the ghost g.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
                 # The formulas of the field contain symbols for the coordinates of neighbour k. These symbols
                 # get the values of the stage at this neighbour.
@@ -195,5 +193,5 @@ class Linearisation:
         self.taken |= {*self.loads, *(self._exists(k) for k in range(len(self.sites.offsets)))}
         schedule = Assignments((), ends, {}, self._fresh)
         body = tuple(x for x in schedule.run() if isinstance(x, Let))
-        block = StateBlock("site", tuple(self.loads), "the numbers that the matrix reads")
+        block = StateBlock("site", tuple(self.loads), "the numbers in the formulas of the matrix")
         return Kernel(label, (block,), (TIME, "h", *self.problem.runtime), body, schedule.outputs)

@@ -1,9 +1,11 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. An implicit
-method solves equations u = g(u) by iteration, and each iteration executes the same sweeps. The value g(u) is
-called the image of the unknown u. In fixed-point iteration, the last sweep replaces the unknowns by their
-images. For a sum over all sites, one sweep stores the term of each site, and later sweeps read the sum.
+If the field reads a value at neighbours, one sweep stores the value at all sites. A later sweep evaluates the
+field. For a sum over all sites, one sweep stores the term of each site, and later sweeps read the sum.
+
+An implicit method solves equations u = g(u) by iteration, and each iteration executes the same sweeps. The
+value g(u) is called the image of the unknown u. In fixed-point iteration, the last sweep of an iteration
+replaces u by g(u).
 """
 
 from __future__ import annotations
@@ -58,8 +60,8 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        The sweep before the first iteration computes the starting values of the unknowns. The last sweep of
-        an iteration computes the images. All other sweeps have no pairs.
+        The sweep before the first iteration computes the starting values of the unknowns u. The last sweep of
+        an iteration computes the values g(u). All other sweeps have no pairs.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -103,8 +105,8 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # Only fixed-point iteration needs rows for the stopping rule. The solver of Newton's method measures
-        # its corrections itself.
+        # The stopping rule of fixed-point iteration uses rows of the workspace. The solver of Newton's method
+        # measures its corrections without such rows.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -128,14 +130,14 @@ class Planner:
         """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
-        # In the workspace, the residuals, the border and the matrix follow the variables. Only periodic
-        # chains have a border (:class:`codegen.ir.site_step.SiteNewton`).
+        # The workspace contains the variables, the residuals, the border and the matrix, in this order. Only
+        # periodic chains have a border (:class:`codegen.ir.site_step.SiteNewton`).
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
             stored = (self.rows, self._given(), self.coupled, self.makers)
-            # A sum over all sites couples all unknowns, so Newton's matrix would not be banded.
+            # A sum over all sites couples all unknowns, so Newton's matrix would be dense.
             if self.totals:
                 raise MethodError(
                     f"Newton's method cannot solve equations that contain sums over all sites, such as the "
@@ -147,13 +149,13 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # For each site, the workspace contains three square submatrices of the Newton matrix. All systems of
-        # equations use the same rows, because the systems are solved one after the other.
+        # The Newton matrix has three square blocks for each site. All systems of equations use the same rows,
+        # because the systems are solved one after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
     def coupled(self) -> tuple[int, ...]:
-        """The indices of the blocks of the state that the field reads at neighbours."""
+        """The indices of the blocks of ``problem.state`` that the field reads at neighbours."""
         read = {n.payload for n in walk(self.problem.roots) if n.op == "sym"}
         return tuple(
             k
@@ -187,16 +189,16 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Each site reads the unknowns of its neighbours. Therefore the unknowns change only in a
-                # further sweep, after all sites have read the old values.
+                # Sites read the unknowns of their neighbours. A further sweep changes the unknowns after all
+                # sites have read the old values.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
-            # The solution satisfies u = g(u), so later statements read u in place of g(u).
+            # The solution satisfies u = g(u), so the rest of the program reads u in place of g(u).
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
             least = last + 1
 
     def _without_renamed(self, solve: Solve) -> Solve:
-        """Return ``solve`` with each image g(u) of earlier equations replaced by the unknown u."""
+        """Return ``solve`` with u in place of g(u), for all earlier equations u = g(u)."""
         starts = tuple(self.renamed.get(v, v) for v in solve.starts)
         return replace(solve, starts=starts, body=tuple(map(self._rename, solve.body)))
 
@@ -207,8 +209,8 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # If the field reads a point at neighbours, an earlier sweep must store the point. Unknowns and the
-        # old state are always stored.
+        # If the field reads a variable at neighbours, an earlier sweep must store the variable. Unknowns and
+        # the old state are always stored.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -234,12 +236,11 @@ class Planner:
         return {v: unique_name(v.name, taken) for v in self.totals}
 
     def _choose_sums(self) -> None:
-        """Find the sums to store.
+        """Find the linear combinations of vectors that are stored in place of one of their terms.
 
-        Suppose that one sweep computes both a sum and a term of the sum. If only the sum reads this term, the
-        sum is stored and the term is not. For example, a 2N scheme (a low-storage Runge-Kutta method) then
-        stores only one element of the Lie algebra for each site. In programs with implicit equations, no sums
-        are stored.
+        One sweep must compute both the linear combination and the term, and nothing else may read the term.
+        Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the Lie algebra
+        for each site. In programs with implicit equations, no linear combinations are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -263,7 +264,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            # A cheap value is computed again from its arguments, even if an earlier sweep has computed it.
+            # A cheap value is computed again, even if an earlier sweep has computed the value.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
@@ -284,13 +285,13 @@ class Planner:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # Every iteration reads this value, but no iteration computes it. Its rows must not be
-                # overwritten before the last iteration ends.
+                # Iterations read this variable but do not compute it. Its rows must not be overwritten before
+                # the last iteration ends.
                 used[var] = max(used[var], block.last + 1)
         return used
 
     def _store(self, needs: list[_Needs]) -> int:
-        """Assign rows of the workspace to stored variables, and return the number of rows."""
+        """Assign rows of the workspace to all stored variables, and return the number of these rows."""
         for var in self._given():
             self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
         used = self._last_uses(needs)
@@ -303,7 +304,7 @@ class Planner:
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
-            # Sorted rows make the layout of the workspace the same in every compilation.
+            # A set has no fixed order. Sorted rows give every compilation the same workspace layout.
             free = sorted({*free, *ended})
             # The sweep before the first iteration stores the starting values, so it reserves the rows of the
             # unknowns.

@@ -2,8 +2,9 @@
 
 The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. Here g
 approximates the differential of the energy, and eta is the displacement of a step. The energies before and
-after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. Each site computes its own
-term of e. These terms are small, so their sum e has a small rounding error.
+after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. The difference of
+the total energies would have a large rounding error. Therefore e is computed as a sum of the small terms of
+the sites.
 
 If the equations are not Hamilton's equations, the field f is expressed by the bivector
 (gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. Three further sums over all sites
@@ -59,7 +60,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # ``paired`` approximates the change of the energy at a site. The excess is the approximation error.
+        # ``paired`` approximates the change of the energy. ``excess`` is the sum of the approximation errors.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):
@@ -69,5 +70,5 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         operation, args = Wedge(), (gamma, f, *sums)
     else:
         return (assign,)
-    # The last assignment has the targets of ``assign``, so later statements need no change.
+    # The last assignment has the targets of ``assign``, so the rest of the program needs no change.
     return (*build.take(), replace(assign, operation=operation, args=args))

@@ -30,11 +30,11 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
 
 SHORT = 3
-"""An expression with at most this number of operations is computed again, and not stored.
+"""The largest number of operations in an expression that is computed again and not stored.
 
-A step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum if the limit is 1 or 3. With the limit 10
-the time is 117 ns, because sines are then computed again. On a chain of spins, the times with these three
-limits differ by at most 3 per cent.
+With the limits 1 and 3, a step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum. With the limit
+10 the time is 117 ns, because several sweeps compute the same sines. On a chain of spins, the times with
+these three limits differ by at most 3 per cent.
 """
 
 CALL = 10
@@ -58,8 +58,8 @@ class _Stored:
 class TaylorSweeps:
     """Builds the sweeps of one step of Taylor's method. A sweep is a loop over all sites.
 
-    ``problem`` is the equation of one site with fixed neighbours. ``problem.evolution`` contains the
-    derivatives of the coordinates.
+    ``problem`` describes one site, and the states of its neighbours are parameters. ``problem.evolution``
+    contains the time derivatives of the coordinates.
     """
 
     def __init__(self, program: Program, problem: Problem, sites: Sites, degree: int) -> None:
@@ -116,7 +116,7 @@ class TaylorSweeps:
     ) -> None:
         """Record the loads of one Taylor coefficient of a site and of its neighbours.
 
-        Record formulas for the coefficient of neighbours outside the lattice.
+        Also record the formulas that replace the coefficient of a neighbour outside the lattice.
         """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
@@ -128,11 +128,10 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients ``terms``, if necessary with the number zero in place of None.
+        """Return ``terms``, if necessary with the number zero in place of None.
 
-        None represents a coefficient that is zero at all sites. Sweeps do not load such a coefficient.
-        Outside the lattice, the coefficient may differ from zero. Then sweeps must load the coefficient, and
-        zero replaces None.
+        None represents a coefficient that is zero at all sites and that no sweep loads. If the coefficient
+        may differ from zero outside the lattice, sweeps must load it. In this case, zero replaces None.
         """
         if degree == self.degree:
             return terms
@@ -143,14 +142,13 @@ class TaylorSweeps:
     def _follows(self, ghost: Expr, k: int) -> bool:
         """Return True if a Taylor coefficient that is zero at all sites is also zero outside the lattice.
 
-        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. A constant formula has
-        no coefficients of degree 1 or higher. Coordinate k of the site has the coefficients of the site. For
-        all other formulas, the result is False.
+        ``ghost`` is the formula for coordinate k of a neighbour outside the lattice. The result is True if
+        the formula is a constant, or coordinate k of the site. For all other formulas, the result is False.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
     def _append(self, terms: Sequence[Coefficient], degree: int) -> list[Row]:
-        """Give each coefficient a row and a symbol, append the symbols to all series, and return the rows."""
+        """Give each coefficient a row and a symbol, append the symbols to the series, and return the rows."""
         rows: list[Row] = []
         every: list[Row] = []
         own: list[str] = []
@@ -194,7 +192,7 @@ class TaylorSweeps:
         """Return the value of the Taylor polynomial of each coordinate at the end of the step.
 
         Coefficient n includes the factor h^n, so the value is the sum of all coefficients. The old state is
-        the largest term. It is added last, so that the rounding error is small.
+        the largest term. To reduce the rounding error, the old state is added last.
         """
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
@@ -238,7 +236,7 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression, or a number above SHORT if there are more."""
+        """Count the operations in an expression. The count ends when it exceeds SHORT."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
@@ -252,14 +250,14 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. Sweep n outputs ``ends[n]`` and the expressions in ``stored`` with writer n."""
+        """Return the sweeps. Sweep n outputs ``ends[n]`` and the nodes in ``stored`` with ``writer`` n."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # Neighbours do not read these rows. Therefore the last sweep that reads a row may overwrite the
-            # row.
+            # Sweeps read these rows only at the site itself. Therefore the last sweep that reads a row may
+            # overwrite the row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps. The values that this sweep stores are
@@ -286,7 +284,7 @@ class TaylorSweeps:
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # ``_make`` does not simplify the node, because simplification could change rounding errors.
+                # ``_make`` does not simplify the node. Simplification could change the rounding errors.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 
