@@ -21,7 +21,7 @@ MARGIN = 5.0
 """A recipe is too slow if its predicted CPU time exceeds MARGIN times the least predicted time."""
 
 FRESH = 8
-"""The bar of a recipe is updated when the number of predictions has grown by about the fraction 1/FRESH.
+"""A bar is updated when the number of stored predictions has grown by about the fraction 1/FRESH.
 
 A bar contains limits on the error and the CPU time of a recipe. The limits depend on the predictions.
 """
@@ -35,15 +35,14 @@ three numbers:
 
 - n is the number of recipes that were taken from the queue.
 - d is the distance of the order of the methods in the queue from the usual order (:func:`usual_order`).
-- s is the slowness of the queue. All recipes in a queue have one kind (:data:`Kind`). The slowness compares
-  two predicted CPU times: T1 of the fastest recipe of this kind, and T2 of the fastest recipe of all kinds.
-  Then s = log2(T1/T2).
+- s = log2(T1/T2) is the slowness of the queue. T1 is the least predicted CPU time of the recipes of its kind
+  (:data:`Kind`), and T2 is the least predicted CPU time of all recipes.
 
 The delay is (n + d)/EVEN + s.
 """
 
 FAILED = 4.0
-"""The slowness of a queue (:data:`EVEN`) if every prediction for its kind of recipe is an infinite time."""
+"""The slowness of a queue (:data:`EVEN`) if all predicted times for its kind of recipe are infinite."""
 
 
 def usual_order(error: float) -> float:
@@ -81,8 +80,8 @@ class Jobs(Sequence[Job]):
     (:data:`EVEN`). The delay of a queue grows whenever a recipe is taken from this queue. Therefore the
     queues take turns.
 
-    - ``goals``: for each recipe, the possible goals of runs with equal steps.
-    - ``controlled``: for a recipe, the possible goals of runs with step-size control.
+    - ``goals``: the goals for which a recipe is predicted.
+    - ``controlled``: the goals that a recipe can meet with step-size control.
     - ``early``: names of methods. The recipes of these methods are predicted before all other recipes.
     """
 
@@ -149,7 +148,8 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness of a queue (:data:`EVEN`).
 
-        If there are several goals, the result is the smallest slowness. Without predictions, it is 0.
+        If there are several goals, the result is the smallest slowness. If there is no prediction, the
+        result is 0.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -163,10 +163,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Store the prediction for a recipe. The limits of later jobs use the stored predictions.
+        """Store the prediction for a recipe, if it is reliable. Later bars use the stored predictions.
 
-        A prediction with a ``failure`` is not stored. The time in a ``vague`` prediction may be too short.
-        Such a prediction is stored only together with a prediction for step-size control.
+        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if it contains a
+        prediction for step-size control, because its time may be too short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -184,7 +184,7 @@ class Jobs(Sequence[Job]):
         """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
         To save time, the bar is updated only after several new predictions (:data:`FRESH`). If the recipe can
-        use step-size control, rough predictions for equal steps are not used.
+        use step-size control, inaccurate (``rough``) predictions for equal steps are not used.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -206,8 +206,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion, all methods need many steps, and runs with few steps are useless. Therefore
-    # the first run of a recipe has the smallest number of steps in the successful predictions.
+    # If even the best methods need many steps, runs with few steps are useless. Therefore the first run of a
+    # recipe has the smallest number of steps of all successful predictions.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -19,7 +19,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The largest value in seconds that a user can choose as ``budget`` of :func:`bench` or of ``recommend``."""
+"""The largest allowed ``budget`` of :func:`bench` and of ``recommend``, in seconds."""
 
 
 def bench(

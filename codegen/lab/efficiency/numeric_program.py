@@ -23,7 +23,7 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
 Shape = tuple[tuple[str, int], ...]
-"""The kind and the width (number of components) of each argument or result of an operation."""
+"""For each argument or each result of an operation: the kind, and the width (number of components)."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Numeric(Operation):
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Call ``function`` with the doubles in ``args`` and the step size, and return its results."""
+        """Return the results of ``function`` for the doubles in ``args`` and the step size."""
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):
@@ -131,7 +131,7 @@ class NumericLinear(Operation):
 class NumericPrograms:
     """Replaces each operation in the program of a step by a Python function.
 
-    Equal operations are replaced by the same function, also in different programs.
+    If two programs contain the same operation, they share the function.
     """
 
     functions: dict[object, Evaluate] = field(default_factory=dict)

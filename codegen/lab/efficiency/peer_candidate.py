@@ -27,8 +27,8 @@ class PeerCandidate:
     """A peer (another integrator) that is run on a scene.
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
-    The peer integrates ``equations``. The default value is the form in the coordinates of the scene. If the
-    peer cannot integrate the scene, :meth:`measure` returns a row that contains the reason.
+    The peer integrates ``equations``. If ``equations`` is None, these are the equations of the scene itself.
+    If the peer cannot integrate the scene, :meth:`measure` returns a row that contains the reason.
     """
 
     scene: Problem
@@ -71,11 +71,11 @@ class PeerCandidate:
             error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            # The overhead of a call is measured only once, because it does not depend on ``control``.
+            # The overhead of a call does not depend on ``control``. Therefore it is measured only once.
             self.overhead = self.overhead or Overhead(prepared.idle)
             times = span_times(lambda n: prepared.run(n).steps, self.overhead)
-        # A peer may raise any exception. All exceptions are caught, so that the remaining candidates are
-        # still measured.
+        # A peer may raise any exception. The exception must not prevent the measurement of the remaining
+        # candidates.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start
@@ -108,7 +108,7 @@ class PeerCandidate:
 
         - The peer cannot integrate the scene.
         - The next run would take too long.
-        - The peer makes equal steps, and rounding errors dominate.
+        - The peer makes equal steps, and further steps would not reduce the error because of rounding.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

@@ -2,10 +2,10 @@
 operations.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
-the recipe over the time span with a small number of equal steps. The number is doubled until the error is
-small. The number of steps for a required error is predicted from the most accurate run and the order of the
-method. If no run has a small error, the interpreter also tries step-size control for methods that support it.
-The time of a step is predicted as the sum of the times of its operations.
+the recipe over the time span with a small number of equal steps. The number of steps is doubled until the
+error is small. The number of steps for a required error is predicted from the most accurate run and the order
+of the method. If no run has a small error, the interpreter also tries step-size control for methods that
+support it. The time of a step is predicted as the sum of the times of its operations.
 
 The prediction is not exact. For example, it ignores that the compiler computes common subexpressions only
 once. The recipes with the shortest predicted times are measured first. Recipes that are predicted to be much
@@ -70,10 +70,10 @@ methods of the same kind are not run with step-size control.
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""Two numbers of sweeps. A sweep is one iteration for the implicit equations of a step.
+"""Assumed numbers of sweeps in a step. A sweep is one iteration for the implicit equations.
 
-A prediction uses at least FEWEST_SWEEPS sweeps in a step. Before the first run of a method, the prediction
-uses USUAL_SWEEPS sweeps.
+A prediction assumes at least FEWEST_SWEEPS sweeps. Before the first run of a method, USUAL_SWEEPS sweeps are
+assumed.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
@@ -82,9 +82,9 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 FAR = 10.0
 """A method is excluded if methods of slightly higher order are predicted to be too inaccurate.
 
-Let p be the order of the method. Methods of the orders p + 1 and p + 2 have predicted errors in the time
-limit. Let e be the least of these errors. In the same time, the method of order p is assumed to be even less
-accurate. The method is excluded if e exceeds FAR times the required error.
+Let p be the order of the method. Let e be the least predicted error of methods of the orders p + 1 and p + 2
+within the time limit. The method of order p is assumed to be less accurate. The method is excluded if e
+exceeds FAR times the required error.
 """
 
 CALL = 8.0
@@ -94,9 +94,9 @@ This time is added to the time of the operations of the step.
 """
 
 DIGITS = 16
-"""Emitted code solves implicit equations to DIGITS decimal digits.
+"""The number of correct decimal digits when emitted code solves implicit equations.
 
-In the runs for predictions, the interpreter solves them to DIGITS/2 decimal digits.
+In the runs for predictions, the interpreter solves the equations to DIGITS/2 correct digits.
 """
 
 
@@ -168,10 +168,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). The number e is the least predicted error of methods of
-      slightly higher order (:data:`FAR`) in the time ``seconds``. These methods belong to the family, or to
-      any family if ``family`` is ''. If ``explicit`` is True, the methods are explicit, and otherwise
-      implicit.
+    - ``least``: triples (family, explicit, e) for the rule at :data:`FAR`. Here e is the least predicted
+      error in the time ``seconds`` of methods of slightly higher order. Only methods of this family are
+      compared, or all methods if ``family`` is ''. ``explicit`` is True for explicit and False for implicit
+      methods.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -187,9 +187,9 @@ class Bar:
 
         A method is excluded in three cases:
 
-        - The predicted CPU time ``step_seconds`` of one step is longer than the time limit of the bar.
+        - The predicted CPU time of one step, ``step_seconds``, exceeds the time limit of the bar.
         - The bar requires explicit methods, and the argument ``explicit`` is False.
-        - Even methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
+        - Methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -200,13 +200,13 @@ class Bar:
         """Return the largest number of steps that the interpreter may make in a run.
 
         ``step_seconds`` is the time of a step in compiled code. The result is the number of steps that
-        compiled code makes in the time limit of this bar. It is at most :data:`MANY_STEPS`, but at least the
-        attribute ``steps``.
+        compiled code makes in the time limit of this bar. The result is at most :data:`MANY_STEPS`, but not
+        below the number ``steps`` of the first run.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Return True if this bar excludes all methods of a family, explicit and implicit."""
+        """Return True if this bar excludes both the explicit and the implicit methods of a family."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 
@@ -215,8 +215,8 @@ class Predictor:
     """Predicts the CPU times of recipes for one form of the equations of a scene.
 
     - ``exact``: the reference solution.
-    - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
-      span, and the reference solution at the end of this interval.
+    - ``beginning``: a function that returns the equations on the first interval of the time span
+      (:data:`PARTS`), and the reference solution at the end of this interval.
     - ``failures``: for each kind of method, the number of consecutive failures with equal steps
       (:data:`TRIES`). A kind is a pair (family, explicit).
     - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
@@ -235,10 +235,10 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        Each bar contains limits on the error and on the CPU time. If every bar excludes the method
-        (:meth:`Bar.too_high`), the method is not run, and the predicted error is infinite. Otherwise the
-        remaining bars limit the runs. ``controlled`` is the same method with step-size control, or None.
-        Raises InputError if the method cannot be used for the scene.
+        A bar contains limits on the error and on the CPU time. If all bars exclude the method
+        (:meth:`Bar.too_high`), the method is not run, and the predicted error is infinite. If some bars do
+        not exclude the method, these bars limit the numbers of steps of its runs. ``controlled`` is the same
+        method with step-size control, or None. Raises InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -256,8 +256,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If all runs failed, the first interval is tried. If the error is large, ``most`` is compared with
-        # MANY_STEPS. If ``most`` is smaller, the method is too slow. Otherwise the first interval is tried.
+        # The method is run over the first interval only if all runs failed or have large errors. If the error
+        # is large and ``most`` is below MANY_STEPS, the method is too slow, and this run is omitted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -277,7 +277,7 @@ class Predictor:
         """Return the prediction for a method with step-size control, or None.
 
         The interpreter makes runs with decreasing tolerances. The series ends when a run fails, when an error
-        is at most ``target``, or when half of the time limit (:data:`PATIENCE`) has passed. ``equal`` is the
+        is at most ``target``, or after PATIENCE/4 seconds of CPU time (:data:`PATIENCE`). ``equal`` is the
         prediction for equal steps. The result is None in three cases:
 
         - No run has a small error (:data:`SMALL`).
@@ -303,8 +303,8 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer than this run. If half of the time limit
-            # has passed, the next run would probably exceed the limit.
+            # The next run has a smaller tolerance and takes longer than this run. If half of the allowed time
+            # has passed, the next run would probably exceed the time limit.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -325,7 +325,7 @@ class Predictor:
 
         The first time is for the operations outside of implicit equations. The second time is for one sweep
         (iteration) over all implicit equations. ``widths`` maps each input of the program to its number of
-        components. The function adds all other variables of the program to ``widths``.
+        components. The function stores the other variables of the program in ``widths``, too.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -341,7 +341,7 @@ class Predictor:
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
         """Return the predicted time of one assignment in nanoseconds.
 
-        The numbers of components of the assigned variables are added to ``widths``.
+        The number of components of each assigned variable is stored in ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # The key contains the group, because methods may use different groups for the same scene.
@@ -366,11 +366,11 @@ def _reached(
     """Run a program in the interpreter with increasing numbers of equal steps.
 
     The first run has ``steps`` steps. The number of steps is doubled for each further run, up to ``most``.
-    The series ends when the error is small (:data:`SMALL`), or when the process has used ``end`` seconds of
-    CPU time.
+    The series ends when the error is small (:data:`SMALL`), or when the CPU time of the process
+    (``time.process_time``) reaches ``end``.
 
     Returns three numbers for the most accurate run: the number of steps, the error, and the number of sweeps
-    in a step. A sweep is an iteration for implicit equations. If all runs failed, the error is infinite.
+    (iterations for implicit equations) in a step. If all runs failed, the error is infinite.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0

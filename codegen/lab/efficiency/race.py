@@ -3,8 +3,8 @@
 A recipe is a method with equal steps or step-size control, on one form of the equations. It is measured with
 emitted C code. The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
 
-The control is increased until two consecutive runs have small errors, because the error of a single run may
-be small by accident. Afterwards, bisection finds the smallest control that reaches the required error. The
+The control is increased until two consecutive runs have small enough errors. The error of a single run can be
+small by accident. Afterwards, bisection finds the smallest control that reaches the required error. The
 comparison of all recipes is called the race.
 """
 
@@ -32,15 +32,15 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The largest number of bisections of the control (the number of steps, or the exponent of the tolerance)."""
+"""The largest number of bisections in the search for the smallest control that reaches an error."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""After a run of more than LONGEST seconds of CPU time, no finer run of the recipe is made.
+"""After a run of more than LONGEST seconds of CPU time, the accuracy of the runs is not increased further.
 
-If another recipe reaches the required error in a short time, the limit is lower (:data:`PATIENT`).
+If another recipe reaches the required error in a short time, the limit is below LONGEST (:data:`PATIENT`).
 """
 
 BRIEF = 0.01
@@ -50,9 +50,9 @@ Short times are not reliable, because the first run of a module is slower than l
 """
 
 PATIENT = 8.0
-"""After a run that is much slower than the fastest other recipe, no finer run of the recipe is made.
+"""If a run is much slower than the fastest other recipe, the accuracy is not increased further.
 
-The limit is PATIENT times the least CPU time of the other recipes, plus BRIEF.
+The limit on the CPU time is PATIENT times the least CPU time of the other recipes, plus BRIEF.
 """
 
 
@@ -60,7 +60,8 @@ The limit is PATIENT times the least CPU time of the other recipes, plus BRIEF.
 class Entry:
     """A recipe in the race, with its emitted module ``artifact``.
 
-    ``features`` contains the properties of the emitted method. ``label`` is the label of the method.
+    ``features`` contains properties of the emitted method, for example whether it is symplectic. ``label`` is
+    the label of the method.
     """
 
     recipe: Recipe
@@ -86,8 +87,8 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # In every other form of the equations, the unknowns are coordinates. The method ignores the manifold
-        # of the scene. Therefore the states may leave the manifold.
+        # In forms other than PRINTED, the unknowns are coordinates. The method ignores the manifold of the
+        # scene. Therefore the states may leave the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
@@ -188,8 +189,8 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the result for the fastest run that reaches an error.
 
-        ``best`` is the least CPU time of the other recipes in seconds. After a run that takes much
-        longer than ``best`` (:data:`PATIENT`), no finer run is made. If the error is not reached, the
+        ``best`` is the least CPU time of the other recipes in seconds. If a run takes much longer than
+        ``best`` (:data:`PATIENT`), the accuracy is not increased further. If the error is not reached, the
         attribute ``reached`` of the result is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
@@ -216,12 +217,12 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Increase the control until a run reaches the error and the next run confirms this result.
+        """Increase the control until two consecutive runs have small enough errors.
 
-        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The next run
-        confirms the result if it has at most twice the error ``error``. Returns the control of the confirmed
-        run, and True. Without a confirmed run, returns the last control, and False. The control
-        is not increased after a run of more than ``longest`` seconds of CPU time.
+        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The error of the
+        first run must be at most ``error``, and the error of the second run at most 2 * ``error``. Returns
+        the control of the first run, and True. If there are no such runs, returns the last control, and
+        False. After a run of more than ``longest`` seconds of CPU time, the control is not increased.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -254,9 +255,8 @@ class Racer:
     def _coarsened(self, control: float, error: float) -> float:
         """Reduce the control of a run by bisection. Return the smallest tested value that reaches the error.
 
-        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. A run with this
-        value must reach the error. The bisection searches between half of the number of steps and the number
-        of steps, or between the exponents k - 1 and k.
+        ``control`` is the number n of equal steps, or the exponent k of the tolerance 10^-k. A run with
+        ``control`` must reach the error. The bisection searches between n/2 and n, or between k - 1 and k.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

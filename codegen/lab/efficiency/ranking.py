@@ -56,7 +56,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs: the last run whose error is above ``error``, and the next run. The
     interpolation is linear in the logarithms of time and error. If the next run or a later run took less
-    time, the result is the least time of these runs.
+    time than the interpolated time, the result is the least time of these later runs.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -72,7 +72,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the result of :func:`seconds_to`. All rows must belong to one form of the equations."""
+    """Return the result of :func:`seconds_to` for rows of only one form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -88,7 +88,7 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate, followed by the form of the equations in brackets.
+    """Return the label of a candidate, followed by the name of the form of the equations in brackets.
 
     If ``form`` is empty, return only the label.
 
@@ -99,7 +99,7 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful runs of a candidate, without the runs on slower forms of the equations.
+    """Return the successful runs of a candidate on the fastest forms of the equations.
 
     A run is omitted if another form reaches the same error in less time. If there are several forms, the
     result is sorted by error, from large to small.
@@ -117,10 +117,10 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Select one form of the equations, and return its rows.
+    """Return the rows of the form of the equations that is most often the fastest.
 
-    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The selected form is
-    fastest for the largest number of errors.
+    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The form that is fastest
+    for the most errors is selected.
     """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)

@@ -41,7 +41,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # Goal raises InputError if ``error`` or ``needs`` is invalid.
+        assert self.goal  # The goal is computed because Goal checks ``error`` and ``needs``.
 
     @property
     def goal(self) -> Goal:
@@ -50,7 +50,7 @@ class Request:
 
     @property
     def task(self) -> Task:
-        """The task of the search: the scene, the time limit, and the methods to search."""
+        """The task of the search: the scene, its time span, the time limit of the search, and the methods."""
         return Task(self.scene, self.span, self.budget, self.tableaux)
 
     def problem(self) -> Problem:
@@ -62,14 +62,14 @@ class Request:
 class Recommendation:
     """The result of a search for the fastest recipe.
 
-    - ``places``: for each recipe that reaches the error, its fastest run. The fastest recipe comes first.
+    - ``places``: the fastest run of each recipe that reaches the error, from fast to slow.
     - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
-    - ``seconds``: the time of the search.
+    - ``seconds``: the time of the search in seconds.
     - ``complete``: False if the time limit ended the search.
     - ``lost``: the labels of recipes that do not preserve a conserved quantity in a long run.
-    - ``referred``: the fraction of the time limit that the reference solution took.
+    - ``referred``: the fraction of the time limit in which the reference solution was computed.
     - ``kinks``: the number of points of the solution at which the vector field is not smooth.
     """
 
@@ -106,7 +106,7 @@ class Recommendation:
 
 
 def place_json(task: Task, place: Result) -> dict[str, object]:
-    """Return a run as plain data, together with the ``orderconds`` command that emits its integrator."""
+    """Return a measured run as a dictionary, with the ``orderconds`` command that emits its integrator."""
     recipe, properties = place.entry.recipe, place.entry.features
     return {
         "method": recipe.method,

@@ -20,8 +20,8 @@ STACK = 4096
 class Requirement:
     """A requirement on a method. The table of recommended methods has one column for each requirement.
 
-    ``needs`` contains names from :data:`codegen.lab.efficiency.goal.NEEDS`. A method must meet all of them.
-    ``stack`` is the largest stack memory of a call in bytes, or None for no limit.
+    ``needs`` contains names from :data:`codegen.lab.efficiency.goal.NEEDS`. A method must meet all these
+    needs. ``stack`` is the largest allowed stack memory of a call in bytes, or None for no limit.
     """
 
     name: str

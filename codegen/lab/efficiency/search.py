@@ -3,12 +3,12 @@
 A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound on
 the error and a list of requirements. For example, the method must be symplectic. The search has three stages.
 
-In the first stage, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
-(:mod:`codegen.lab.efficiency.prediction`). The interpreter stops early if the recipe is certainly too slow.
+In the first stage, the CPU time of each recipe is predicted from short runs in the interpreter
+(:mod:`codegen.lab.efficiency.prediction`). The interpreter stops early if the recipe is much too slow.
 
-In the second stage, recipes are emitted as C and measured. A recipe is measured early if its predicted time
-is far below the best measured time. The measured times are used to correct the predicted times of other
-recipes. If the corrected time of a recipe is far above the best measured time, the recipe is not measured.
+In the second stage, recipes are emitted as C and measured. The measured times are used to correct the
+predicted times of other recipes. Recipes with short corrected times are measured early. If the corrected time
+of a recipe is far above the best measured time, the recipe is not measured.
 
 In the third stage, the fastest recipes are timed again with more repetitions. All goals use the same
 predictions, compiled modules and runs.
@@ -37,8 +37,10 @@ from codegen.lab.reference import Reference, cached_reference
 from orderconds.processes import in_processes
 
 SAFETY = 2.5
-"""A recipe is emitted and measured if its corrected predicted time is at most SAFETY times the best measured
-time.
+"""A factor in the rule that decides whether a recipe is measured.
+
+The recipe is measured if its predicted time is at most SAFETY times the best measured time. The predicted
+time is first corrected by the results of measured recipes.
 """
 
 UNSEEN = 4.0
@@ -57,7 +59,7 @@ CONTROLLED = 100.0
 """The divisor of predicted times of recipes with step-size control.
 
 The divisor is used if the prediction comes from inaccurate runs with equal steps, and no recipe of the same
-kind has been measured. On stiff scenes, such a prediction can be about a hundred times too long.
+kind has been measured. On stiff scenes, such a predicted time can be a hundred times the true time.
 """
 
 ROUND = 6
@@ -76,9 +78,10 @@ The remaining budget is the time that is left after the computation of the refer
 """
 
 UNREACHED = 1e-3
-"""The gain of a recipe that may be the fastest, although its estimated time is not below the best time.
+"""The gain of a recipe whose estimated time is infinite, or long but unreliable.
 
-Recipes with large gains are measured first. The gain UNREACHED is small, so such a recipe is measured late.
+Recipes with large gains are measured first. The gain UNREACHED is small. Therefore such a recipe is measured
+late.
 """
 
 LONG_STEPS = 20_000
@@ -113,7 +116,7 @@ class Search:
     - ``predictions``: the predicted errors and times of recipes.
     - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each error.
     - ``results``: for each error, a dictionary of the measured recipes and their results.
-    - ``lost``: for each goal, the recipes that do not preserve a conserved quantity in a long run.
+    - ``lost``: for each goal, the recipes that fail the test of conserved quantities in a long run.
     - ``complete``: False if the time budget ended the search.
     """
 
@@ -151,7 +154,7 @@ class Search:
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
-        """Run the first two stages of the search: predict the times of recipes, then measure recipes."""
+        """Predict the times of recipes, and measure the promising recipes."""
         self.predict()
         self.race()
 
@@ -195,7 +198,7 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` if it is unreliable.
+        """Return the estimate of :meth:`expected`. An unreliable estimate is divided by :data:`CONTROLLED`.
 
         An estimate is unreliable if three conditions hold: the recipe has step-size control, the prediction
         comes from equal steps with large errors, and no recipe of the same kind has been measured.
@@ -207,8 +210,8 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        For a recipe with step-size control, the prediction comes from runs with step-size control. If these
-        runs were not made, the prediction comes from runs with equal steps.
+        For a recipe with step-size control, the prediction for step-size control is returned. If there is no
+        such prediction, the prediction for equal steps is returned.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -260,9 +263,9 @@ class Search:
 
         The recipes with the largest gains are returned. Let a be the best measured time for a goal, and b the
         estimated time of the recipe (:meth:`expected`). If b is below a, the gain for this goal is log(a/b).
-        If no measured recipe reaches the goal, a is the safety factor times the least estimated time. The
-        gains for all goals are added. If no recipe of a kind has been measured, at most one recipe of this
-        kind is returned.
+        If no measured recipe reaches the goal, the least estimated time of all recipes is multiplied by the
+        safety factor and used as a. The gains for all goals are added. If no recipe of a kind has been
+        measured, at most one recipe of this kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -338,8 +341,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is not known. Therefore a long time is
-                # assumed. It is neither below the predicted time nor below 2 * safety * worst.
+                # If the recipe does not reach the error, its time is not known. A long time is
+                # assumed, to make the search avoid similar recipes.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -347,7 +350,7 @@ class Search:
     def time_again(self, goal: Goal) -> None:
         """Time the fastest recipes for a goal again, with more repetitions.
 
-        A run that was already timed again is omitted.
+        A run is omitted if an earlier call of this function has timed the run.
         """
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
@@ -375,10 +378,10 @@ class Search:
     def _ranked(self, goal: Goal) -> list[Result]:
         """Return the results for a goal, from fast to slow.
 
-        The fastest recipes are timed again, and the results are sorted. If the goal concerns long times, the
-        two fastest recipes must preserve the conserved quantities in a long run. If a recipe fails this test,
-        its step size is halved, and the test is repeated. After :data:`SHORTER` halvings, a recipe that fails
-        is excluded.
+        The fastest recipes are timed again, and the results are sorted. If a requirement of the goal concerns
+        long times, the two fastest recipes must preserve the conserved quantities in a long run. If a recipe
+        fails this test, its step size is halved, and the test is repeated. If the recipe fails after
+        :data:`SHORTER` halvings, it is excluded.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -386,7 +389,8 @@ class Search:
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
             result = ranked[kept]
-            # If the step size is halved, the number of steps is doubled. The time span is then the same.
+            # All tests of a recipe use the same time span. Therefore each halving of the step size doubles
+            # the number of steps.
             if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
                 kept += 1
                 continue
@@ -397,8 +401,8 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The result with shorter steps takes more time. It is sorted into the results that are not
-                # tested yet: all results after the first ``kept``.
+                # The first ``kept`` results have passed the test. The result with half the step size is
+                # sorted into the other results by its CPU time.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 
