@@ -2,7 +2,7 @@
 
 The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors in the value of
 the invariant are proportional to the magnitude. Deviations of an invariant are usually divided by its
-absolute value. If the terms nearly cancel, the deviations are divided by the magnitude instead.
+absolute value. If the terms nearly cancel, the deviations are divided by the magnitude.
 """
 
 from __future__ import annotations
@@ -87,8 +87,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The absolute value of the divisor is used. The magnitude of the divisor may be larger, so that
-            # the quotient would be too small.
+            # Division by the magnitude of the divisor could make the result too small. The magnitude can be
+            # larger than the absolute value.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

@@ -37,13 +37,14 @@ A larger error is not attributed to rounding.
 
 @dataclass(frozen=True)
 class Row:
-    """The results of one run of a method or of another integrator.
+    """The measured data of a method or of another integrator for one tolerance or number of steps.
 
     - ``control``: the requested tolerance or number of steps.
     - ``h``: the mean step size.
-    - ``seconds``: the CPU time of a run. It is the mean over the fastest of several batches of runs.
-    - ``spread``: the relative spread of the CPU time. In three quarters of the batches, the mean time of a
-      run is at most (1 + ``spread``) times ``seconds``.
+    - ``seconds``: the CPU time of a run. The run is repeated in several batches. The mean time of a run in
+      the fastest batch is used.
+    - ``spread``: the relative spread of the CPU time. In about three quarters of the batches, the mean time
+      of a run is at most (1 + ``spread``) times ``seconds``.
     - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
       and iterations for implicit equations in the run, or None if they were not counted.
     - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
@@ -77,9 +78,9 @@ class Row:
 class Candidate(Protocol):
     """The interface of a measured integrator: a method, or a peer (another integrator).
 
-    ``label`` and ``target`` identify the candidate in tables. ``key`` identifies the code of the candidate in
-    the cache. Different codes have different keys. ``form`` is the name of the form of the equations, or ''
-    if the scene has only one form.
+    ``label`` and ``target`` identify the candidate in tables. ``target`` is the programming language of a
+    method, or 'peer'. ``key`` identifies the code of the candidate in the cache. ``form`` is the name of
+    the form of the equations, or '' if the scene has only one form.
     """
 
     label: str
@@ -115,8 +116,9 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Make the runs of a candidate, and return one row for each run.
 
-    ``done`` is called with the row of each run. Rows that are stored in ``cache`` are not measured again.
-    If the candidate cannot run on the scene, the last row contains the reason.
+    ``done`` is called with the row of each run. If ``cache`` contains the row of a run with the same
+    reference solution ``exact``, the run is not measured again. If the candidate cannot run on the scene, the
+    last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -152,8 +154,9 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
     """Repeat measurements with implausible times, and return all rows.
 
     Two consecutive runs have implausible times if the run with fewer steps took longer. Both runs are then
-    measured again, at most :data:`AGAIN` times. The row of a run contains its least time. ``fresh`` contains
-    the controls (tolerances or numbers of steps) of the runs that may be measured again.
+    measured again, at most :data:`AGAIN` times. If a repeated measurement is faster, its row replaces the
+    old row. ``fresh`` contains the controls (tolerances or numbers of steps) of the runs that may be measured
+    again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -187,7 +190,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield the number 0.0 once. The only row of this method then contains ``reason``."""
+        """Yield one number, because one row with ``reason`` is needed."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -214,7 +217,7 @@ def doubled_steps() -> Iterator[float]:
 def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
     """Return True if the next run would take longer than ``budget`` seconds of CPU time.
 
-    It is expected that the next run takes twice as long as the last run in ``rows``.
+    The next run is expected to take twice as long as the last run in ``rows``.
     """
     last = rows[-1]
     return last.seconds is not None and 2 * last.seconds > budget
@@ -223,8 +226,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Let e1, e2 and e3 be the errors of the last three runs in ``rows``. The error e1 must be at most
-    :data:`NEAR_ROUNDING` times the size of the state. The errors e2 and e3 must be above e1/3.
+    Let e1, e2 and e3 be the errors of the last three runs in ``rows``. The result is True if e1 is at most
+    :data:`NEAR_ROUNDING` times the size of the state, and e2 and e3 are above e1/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

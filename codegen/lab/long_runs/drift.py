@@ -41,15 +41,13 @@ The slope of a record counts as a drift only if the means over the sections are 
 """
 
 LOST = 1.0
-"""A conserved quantity counts as lost if its relative deviation is at least LOST.
-
-The deviation is then at least as large as the quantity.
-"""
+"""A conserved quantity counts as lost if its relative deviation is at least LOST."""
 
 BOUNDED, WALK = 0.25, 0.75
 """Limits for the exponent p of a deviation that grows like t^p, where t is the time.
 
-The deviation may be bounded if p is below BOUNDED. It may be a random walk if p is between BOUNDED and WALK.
+A value of p below BOUNDED suggests a bounded deviation. A value between BOUNDED and WALK suggests a random
+walk.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
@@ -67,7 +65,7 @@ of the record. After this time, the deviation is at least STAYS times d.
 """
 
 WALKING = (0.5, 1.6)
-"""Limits for the variance ratio. Between these limits, a record may be a random walk.
+"""Limits for the variance ratio of a random walk. For the distance FAR, only the lower limit is used.
 
 The record is divided into blocks, and a line is fitted to the means over the blocks. Let r_i be the residual
 of block i in this fit, and V_k the mean of (r_(i+k) - r_i)^2 over all i. The variance ratio is V_k/(k V_1),
@@ -100,13 +98,17 @@ walks.
 """
 
 TINY = 1e-24
-"""A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
+"""A limit for the variance of the differences between block means.
+
+The limit is TINY times the square of the largest deviation. A smaller variance is attributed to rounding
+errors.
+"""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""The number of blocks for the scatter and for two variance ratios, and the distances k for these ratios.
+"""FINE is the number of blocks for the scatter and for two variance ratios (:data:`WALKING`).
 
-The variance ratios (:data:`WALKING`) have k = NEAR and k = FAR. If a record is short, there are fewer than
-FINE blocks, and the second distance is at most half the number of blocks.
+The two variance ratios have the distances k = NEAR and k = FAR. If a record is short, it has fewer than FINE
+blocks, and the second distance is at most half the number of blocks.
 """
 
 
@@ -150,8 +152,8 @@ class Drift:
     def law(self) -> str:
         """The verdict on the deviation. It is one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity. A deviation that saturates is also lost if
-          it reaches half of this size.
+        - ``lost``: the deviation reaches the size of the quantity, or it saturates and reaches half of this
+          size.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -173,8 +175,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation may grow with alternating sign. Then the means over blocks do not grow, and ``is_drift``
-        # is False, but the exponent of growth is large. Therefore ``steady`` also requires a small exponent.
+        # If a deviation grows with alternating sign, the means over blocks do not grow, and ``is_drift`` is
+        # False. The exponent is large in this case, so ``steady`` tests the exponent.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -185,7 +187,7 @@ class Drift:
     def drifts(self) -> bool | None:
         """True if the verdict :attr:`law` is ``drift``, ``random walk`` or ``lost``.
 
-        The value is None if the run is too short for a verdict. For the other verdicts, it is False.
+        None if the run is too short for a verdict. False for the other verdicts.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
@@ -210,8 +212,8 @@ def fit(
 ) -> Drift:
     """Return the drift of a quantity, computed from its relative deviations.
 
-    - ``times``: the times of the samples, measured from the start of the run. They decrease in a backward
-      run.
+    - ``times``: the times of the samples, measured from the start of the run. In a backward run, the times
+      decrease.
     - ``deviations``: the relative deviation at each sample.
     - ``peaks``, ``lows``: the largest and the smallest absolute deviation in the interval that ends at each
       sample. The default for both is the absolute value of the deviation at the sample.
@@ -263,12 +265,13 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift computed from times ``t``, mean deviations ``y`` and largest deviations ``size``.
+    """Return the drift for samples at the times ``t``. All numbers must be finite.
 
-    All numbers in the arguments must be finite.
+    ``y`` contains the deviation of each sample. ``size`` contains the largest absolute deviation in the
+    interval that ends at each sample.
     """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
-    # Times and values are scaled, so that their squares do not overflow.
+    # The scaling prevents an overflow in the squares of times and deviations.
     t, y, size = t / whole, y / scale, size / scale
     slope, half = _slope(t, y)
     means = _means(t, y, PARTS)[1].tolist()
@@ -298,19 +301,19 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If all increments are equal up to rounding errors, the means are on a line. The scatter is then 0.
+    # If all increments are equal up to rounding errors, the means are on a line. Their scatter counts as 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the steadiness of a record, as defined at :data:`STEADY`."""
+    """Return the steadiness of a record (:data:`STEADY`)."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return two variance ratios of a record, as defined at :data:`WALKING` and :data:`FINE`."""
+    """Return the two variance ratios of a record (:data:`WALKING`, :data:`FINE`)."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 

@@ -38,9 +38,9 @@ Several such runs are made, from different initial states.
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""A factor for the largest deviation that is attributed to rounding errors.
+"""A factor of the limit for deviations that are attributed to rounding errors.
 
-The factor is used for a quantity that the method conserves exactly. After n steps, this largest deviation is
+The factor is used for a quantity that the method conserves exactly. After n steps, the limit is
 UNSTABLE * n * EPSILON times the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 """
 
@@ -66,12 +66,12 @@ class Kept:
 class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
-    - ``kept``: the results for each conserved quantity. If there are too few steps, ``kept`` is empty.
+    - ``kept``: the results for each conserved quantity, or () if the run has too few samples.
     - ``reversals``: two pairs (n, distance), or () if not measured. The method makes n steps forward and n
       steps back. The number ``distance`` is the distance between the final and the initial state. In the
       first pair, n is about a hundredth of ``steps``. In the second pair, n is equal to ``steps``.
-    - ``symplectic``: the largest symplectic defect of a step, or None if it was not measured. Steps from
-      several states are compared.
+    - ``symplectic``: the largest symplectic defect of steps from several states, or None if it was not
+      measured.
     - ``failure``: the message of a step that failed, or ''. If a step failed, the results describe the steps
       before the failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
@@ -163,8 +163,8 @@ def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple
     """Test the reversibility of a method. Return two pairs (n, distance).
 
     The method makes n steps forward and n steps back. The number ``distance`` is the distance between the
-    final and the initial state. In the first pair, n is about a hundredth of the steps of the run. In the
-    second pair, n is the number of all steps of the run.
+    final and the initial state. In the second pair, n is the number of all steps of ``trajectory``. In the
+    first pair, n is about a hundredth of this number.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
@@ -182,12 +182,12 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the deviations and the drift of each conserved quantity.
 
-    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its largest change in one step, computed with 60 digits. If
-    the relative change is at most EPSILON/10, the deviations of the quantity may be rounding errors.
+    ``conserved`` contains the names of the quantities that the method conserves exactly. ``changes`` maps
+    the name of a quantity to its largest change in one step, computed with 60 digits. Small deviations of a
+    quantity are attributed to rounding errors only if its relative change is at most EPSILON/10.
 
-    If a deviation stops growing before there are enough samples for a fit (:data:`FEWEST`), the function
-    calls ``early(n)``, which records the first n steps with more samples.
+    ``early(n)`` repeats the first n steps with more samples. This function is called if a deviation
+    saturates before there are enough samples for a fit (:data:`FEWEST`).
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -218,8 +218,8 @@ def _before_saturation(
     """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
     ``whole`` is the result of :func:`fit` for the complete run. If there are enough samples before the
-    saturation, the function returns ``whole``. Otherwise the function calls ``early(n)``, which repeats the
-    first n steps with more samples.
+    saturation, the function returns ``whole``. Otherwise the drift is computed from ``early(n)``, which
+    repeats the first n steps with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

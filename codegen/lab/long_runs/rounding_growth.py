@@ -9,10 +9,10 @@ If the rounding errors are independent, the deviation grows like the square root
 For example, a body that rotates by the same angle in every step may have the same rounding error in every
 step. Compensated summation does not remove such an error.
 
-Several runs start from different states of one trajectory. After several numbers of steps, the root mean
-square of the deviations of all runs is computed. A power of the number of steps is fitted to these root mean
-squares. The confidence interval of the exponent comes from the jackknife method, which repeats the fit
-without the first run, without the second run, and so on.
+Several runs start from different states of one trajectory. For several numbers n, the root mean square of
+the deviations of all runs after n steps is computed. A power of n is fitted to these root mean squares. The
+confidence interval of the exponent comes from the jackknife method, which repeats the fit without the first
+run, without the second run, and so on.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ The change is computed with 60 digits.
 
 
 CHAIN = 3
-"""The number of consecutive steps in the test of the change of a quantity.
+"""The number of consecutive steps in :func:`changes_of_a_step`.
 
 One step is not enough: from a special initial state, the change in one step may be zero by chance.
 """
@@ -125,9 +125,9 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Measure how rounding errors grow in every exactly conserved quantity.
 
-    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. Each quantity has
-    a result without and a result with compensated summation. If the method cannot use compensated summation,
-    only the results without compensated summation exist. If a run fails, the result is empty.
+    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. If the method
+    cannot use compensated summation, only the runs without compensated summation are made. The result
+    contains one item for each quantity and each kind of summation. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -159,10 +159,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state), from which the measured runs start.
+    """Return the pairs (time, state) from which the measured runs start.
 
     All states are on one trajectory. ``run`` is a pair (compensated, integrator). The integrator computes
-    this trajectory. ``compensated`` is True if the integrator uses compensated summation.
+    the trajectory. ``compensated`` is True if the integrator uses compensated summation.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -180,8 +180,8 @@ def exactly_conserved(
 
     From each pair (time, state) in ``starts``, a step is computed with 60 digits. A quantity counts as
     conserved if its relative change in every step is below a bound. For the step from the first state, the
-    bound is :data:`EXACT`. The other states contain rounding errors, so their bound is :data:`NEARLY`. If the
-    interpreter cannot make a step, the result is empty.
+    bound is :data:`EXACT`. For the other steps, the bound is :data:`NEARLY`, because their initial states
+    contain rounding errors. If a step cannot be computed, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -202,10 +202,9 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each conserved quantity in a step.
+    """Return the largest change of each conserved quantity in one of the first :data:`CHAIN` steps.
 
-    The changes in the first :data:`CHAIN` steps from the initial state are compared. The steps are computed
-    with 60 digits. If the interpreter cannot make one of the steps, the result is empty.
+    The steps are computed with 60 digits. If a step cannot be computed, the result is empty.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -280,7 +279,8 @@ def _deviations(
     """Make a run from the state ``start``. Return the deviation of every quantity after each number of steps.
 
     ``counts`` contains the numbers of steps. ``carried`` is True if the integrator uses compensated
-    summation. The state of this integrator then also contains the accumulated rounding errors.
+    summation. With compensated summation, the state of the integrator contains the coordinates and the
+    accumulated rounding errors.
     """
     number, size = domain.context.mpf, len(start)
 
@@ -306,8 +306,8 @@ def _deviations(
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
     """Return the growth of the deviations of the quantity ``name``.
 
-    ``counts`` contains several numbers of steps. ``members`` contains a list for each run, with the deviation
-    after each of these numbers of steps. The root mean square of the deviations over all runs is computed,
+    ``counts`` contains several numbers of steps. For each run, ``members`` contains the list of the
+    deviations after these numbers of steps. The root mean square of the deviations over all runs is computed,
     and the exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife
     method. ``carried`` is True for runs with compensated summation.
     """

@@ -1,8 +1,8 @@
 """The symplectic defect of a step on T*G, the cotangent bundle of a group G.
 
 A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures how
-much the tangent map changes this form. The tangent map is approximated by central differences. The steps for
-these differences are computed with 40 digits.
+much the tangent map changes this form. The tangent map is approximated by central differences. All steps
+are computed with 40 digits.
 
 Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
 a pair (xi, nu). Here xi is an element of the Lie algebra, and nu is an element of the dual of the Lie
@@ -45,9 +45,9 @@ If the iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""The largest relative deviation of a conserved quantity in the part of a run that is measured.
+"""The largest relative deviation of a conserved quantity for which a symplectic defect is computed.
 
-States from the first larger deviation on are excluded.
+After a larger deviation, no symplectic defect is computed.
 """
 
 
@@ -55,8 +55,8 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
     """Return the largest symplectic defect of three steps of size ``h``.
 
     The steps start at three samples of the run: the first sample, the middle sample, and the sample with the
-    fastest motion. Samples from the first relative deviation larger than :data:`LEFT` on are excluded. Raises
-    ArithmeticError or ValueError if a step cannot be computed with 40 digits.
+    fastest motion. If a relative deviation exceeds :data:`LEFT`, this sample and all later samples are not
+    used. Raises ArithmeticError or ValueError if a step cannot be computed with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -121,7 +121,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call stores a solution with 40 digits in ``solution``. The calls of step() below start from it.
+        # _step() stores a solution with 40 digits in ``solution``. All later calls of step() start from it.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T
