@@ -18,9 +18,10 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Section:
-    """The body of a section of the report: the source text of a Jinja template, and the template's variables.
+    """The content of a section of the report.
 
-    The template may import macros from ``parts.html.j2``. HTML characters in ``data`` are escaped, except in
+    ``template`` is the source text of a Jinja template, and ``data`` contains the variables of the template.
+    The template can import macros from ``parts.html.j2``. HTML characters in ``data`` are escaped, except in
     objects of the class ``Markup``.
     """
 
@@ -37,8 +38,8 @@ class Measurement(ABC, Generic[R]):
     - ``title``: the heading of the section;
     - ``about``: a description of one line, which ``orderconds list measurements`` prints;
     - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of a larger measurement. If the user selects the larger measurement, this
-      measurement is selected too.
+    - ``part_of``: the name of another measurement. If the user selects that measurement, the measurement of
+      this class is made too.
     """
 
     name: ClassVar[str]
@@ -49,9 +50,9 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def run(self, subject: Subject) -> R:
-        """Measure all methods of the subject, and return the result.
+        """Measure the methods of ``subject`` (a scene with methods), and return the result.
 
-        If a method fails, the remaining methods are still measured (:meth:`Subject.each`).
+        If a method fails, the measurement continues with the next method (:meth:`Subject.each`).
         """
 
     @abstractmethod
@@ -60,7 +61,7 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def section(self, result: R, subject: Subject) -> Section | None:
-        """Return the body of the section, or None if there is nothing to show."""
+        """Return the content of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
         """Return one sentence that summarises the result. The section begins with this sentence.

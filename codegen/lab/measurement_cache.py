@@ -1,11 +1,11 @@
-"""A cache on disk for the results of measurements, so that equal inputs are measured only once.
+"""A cache on disk for the results of measurements. A measurement with the same inputs is not repeated.
 
 Each result is stored in its own file. The key of a result contains the inputs of the measurement, such as the
 emitted files and the settings. The cache adds the kind of processor to the key, because CPU times depend on
 it. The file name is a digest of the key.
 
-The file contains the result and a digest of the result. If the digest does not agree, or if the result has
-the wrong type, the measurement is made again. The cache does not use a folder of another user.
+The file contains the result and a digest of the result. If the digest does not match the result, or if the
+result has the wrong type, the measurement is made again. The cache does not use a folder of another user.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ class MeasurementCache:
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
         """Return the stored result with the key ``key``.
 
-        If no result is stored, call ``measure`` and store its result. ``kind`` is the type of the result. The
-        result may consist of dataclasses, tuples, numbers and strings. The file name is computed from the
-        ``repr`` of the values in ``key``. Therefore each ``repr`` must be the same in every process. If the
-        folder cannot be used, the result is not stored. Exceptions of ``measure`` are not caught.
+        If no result is stored, call ``measure`` and store its result. Exceptions of ``measure`` are not
+        caught. ``kind`` is the type of the result, which can consist of dataclasses, tuples, numbers and
+        strings. The file name is computed from the ``repr`` of each value in ``key``. This ``repr`` must be
+        the same in every process. If the folder cannot be used, the result is not stored.
         """
         result = self.find(key, kind)
         if result is None:

@@ -30,7 +30,7 @@ values.
 """
 
 CHUNK = 100_000
-"""A long run is divided into chunks of about CHUNK steps. The states of only one chunk are in memory."""
+"""The approximate number of steps in a chunk. A long run is divided into chunks to save memory."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function that evaluates a quantity at many states.
@@ -62,7 +62,7 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the entries of one interval to the three lists.
+        """Append one interval to ``deviations``, ``peaks`` and ``lows``.
 
         ``values`` contains the deviation after each step of the interval.
         """
@@ -74,7 +74,7 @@ class Series:
         self.lows.append(0.0 if crosses else float(absolute.min()))
 
     def relative(self, scale: float) -> tuple[list[float], list[float], list[float]]:
-        """Return ``deviations``, ``peaks`` and ``lows``, divided by the size ``scale`` of the quantity."""
+        """Return ``deviations``, ``peaks`` and ``lows``, divided by ``scale``."""
         rows = (self.deviations, self.peaks, self.lows)
         deviations, peaks, lows = ([x / scale for x in row] for row in rows)
         return deviations, peaks, lows
@@ -89,8 +89,8 @@ class Trajectory:
     - ``steps``: the number of completed steps of the run.
     - ``failure``: the message of a failed step, or ''.
     - ``counts``: for each sample, the number of steps since the beginning of the run.
-    - ``scales``: the size of each quantity (:func:`scale`).
-    - ``magnitudes``: the magnitude of each quantity, which is the sum of the absolute values of its terms.
+    - ``scales``: for each quantity, the number by which its deviations are divided (:func:`scale`).
+    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
     """
 
     times: list[float]
@@ -108,7 +108,7 @@ def record(
 ) -> Trajectory:
     """Make ``steps`` steps of size ``h`` from the time ``first``, and return the record of the run.
 
-    If a step fails, the record ends before this step.
+    If a step fails, the record ends with the state before this step.
     """
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
@@ -152,8 +152,8 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the magnitude of each conserved quantity.
 
     The magnitude is the sum of the absolute values of the terms of the quantity at the initial state. If this
-    sum is zero, the magnitude is the largest such sum in the first tenth of the samples. The magnitude of the
-    manifold equations is always 1.
+    sum is zero, the largest sum in the first tenth of the samples is returned instead. For the manifold
+    equations, the magnitude is 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -171,8 +171,8 @@ def array_functions(
 
     The keys are the names of the quantities. ``kept`` maps the name of a quantity to its expressions. By
     default it contains the conserved quantities of the scene. The functions return infinity in place of
-    values that are not finite. ``swept`` lists symbols other than the coordinates. Their values are further
-    rows of the array of states.
+    values that are not finite. ``swept`` lists additional symbols. For each symbol in ``swept``, the
+    array of states has an additional row.
     """
     symbols = (*scene.symbols, *swept)
 

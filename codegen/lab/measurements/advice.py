@@ -23,7 +23,10 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The search divides predicted CPU times by this factor. A larger factor admits more methods."""
+"""The safety factor of the search for predicted CPU times.
+
+With a larger factor, the search measures more methods.
+"""
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,7 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement on the method, and the fastest methods that satisfy it.
+    """A requirement on a method, and the fastest methods that satisfy it.
 
     ``need`` is the name of the requirement, and ``meaning`` explains it. For each error 10^-k with k in
     :data:`DECADES`, ``best`` contains the fastest method that reaches the error, or None if no method
@@ -90,7 +93,7 @@ class Recommendations:
 
 
 class Advice(Measurement[Recommendations]):
-    """Finds the fastest method of the library for each requirement and each error."""
+    """Finds the fastest method of the library for each requirement and each error bound."""
 
     name = "advice"
     title = "Which method"
@@ -98,9 +101,10 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search for the fastest methods, and determine the properties of the measured methods.
+        """Search for the fastest methods, and determine the properties of the methods in the report.
 
-        If the user named methods, only these methods are searched. Otherwise the whole library is searched.
+        If the user named methods, the search considers only the named methods. If the user named no methods,
+        the search considers the whole library.
         """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
@@ -166,7 +170,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return an :class:`Advised` with the data of ``place``, the result of the search for the error 10^-k."""
+    """Return the data of ``place``, the result of the fastest method for the error 10^-k."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -182,12 +186,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the lines of an incomplete search, improved with the methods that the report measures.
+    """Return the lines of a search that the time limit ended, completed with other methods.
 
-    ``known`` contains the properties of the measured methods, and ``entries`` contains their runs. The CPU
-    time for an error is interpolated between the runs of a method. For each requirement and error, the
-    result contains the fastest suitable method of the search and the report. Requirements on long times are
-    skipped, because only the search makes long runs.
+    ``known`` contains the properties of these other methods, and ``entries`` contains their runs. The search
+    may have missed a faster method. Therefore a faster method in ``known`` that satisfies the requirement is
+    entered instead. Its CPU time is interpolated between its runs. The lines of requirements on long times
+    are not changed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -207,10 +211,10 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return a copy of ``line`` in which no larger error has a longer CPU time.
+    """Return a copy of ``line`` in which a larger error never needs more CPU time than a smaller error.
 
-    A method that reaches an error also reaches every larger error. If the entry for the next smaller
-    error has a shorter time, the copy therefore contains this entry for both errors.
+    A method that reaches an error also reaches every larger error. If the method for the next smaller error
+    is faster, the copy contains this faster method for both errors.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):
@@ -221,9 +225,9 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple with one :class:`Line`, which contains the fastest peer for each error.
+    """Return a tuple with one :class:`Line`, which lists the fastest peer (other integrator) for each error.
 
-    A peer is another integrator. If no peer was measured, the tuple is empty.
+    If no peer was measured, the tuple is empty.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:

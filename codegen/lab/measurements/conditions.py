@@ -1,7 +1,6 @@
 """The section about order conditions.
 
-It shows the independent order conditions of each family of methods, and the conditions that each method
-violates.
+It shows the independent order conditions of each method family, and the conditions that each method violates.
 """
 
 from __future__ import annotations
@@ -46,20 +45,20 @@ class FamilyConditions:
 
     @property
     def counts(self) -> str:
-        """The number of conditions of each order, separated by commas."""
+        """The numbers of conditions of the orders 1, 2, ..., separated by commas."""
         return ", ".join(str(len(rows)) for _, rows in self.by_order)
 
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The order conditions of all families of methods, and the orders of all methods of the report."""
+    """The order conditions of the method families in the report, and the orders of the methods."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
 
 
 class Conditions(Measurement[ConditionTables]):
-    """Lists the order conditions of each family of methods.
+    """Lists the order conditions of each method family in the report.
 
     The class also lists the conditions that each method violates, with their residuals.
     """
@@ -70,7 +69,7 @@ class Conditions(Measurement[ConditionTables]):
     part_of = "orders"
 
     def run(self, subject: Subject) -> ConditionTables:
-        """Derive the order conditions of each family that has a method in the report."""
+        """Derive the order conditions of each method family in the report."""
         studies = Orders().result(subject).measured
         return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 
@@ -85,7 +84,7 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence that states for how many methods the computed order is exact.
+        """Return a sentence with the number of methods whose computed order is exact.
 
         The computed order of a method is exact if the method violates a condition of the next order.
         """
@@ -94,8 +93,8 @@ class Conditions(Measurement[ConditionTables]):
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
         count = f"{exact} of {total}" if exact < total or total == 1 else f"all {total}"
         return (
-            f"The computed order is exact for {count} methods, "
-            "because each of these methods violates a condition of the next order."
+            f"For {count} methods, the computed order is exact, "
+            "because a condition of the next order is violated."
         )
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
@@ -124,8 +123,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # The report cannot show order conditions if the family is not in :mod:`orderconds.families`, or
-            # if the method has no tableau.
+            # Order conditions can be shown only for the families in :mod:`orderconds.families`, and only for
+            # methods with a tableau.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

@@ -1,6 +1,6 @@
 """The section about run times: the error and the CPU time of methods and other integrators.
 
-The section also shows the fastest method for each accuracy, and the operations of a step.
+The section also shows the fastest integrator for each error, and the operations of a step.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from codegen.scenes import file_stem
 
 @dataclass(frozen=True)
 class CostResult:
-    """The results of all runs. ``candidates`` are the methods and peers (other integrators) of the runs."""
+    """The results of all runs. ``candidates`` contains the methods and peers (other integrators)."""
 
     result: Result
     candidates: tuple[Candidate, ...]
@@ -74,7 +74,7 @@ class Cost(Measurement[CostResult]):
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return a sentence that lists the fastest method for each accuracy."""
+        """Return a sentence that names the fastest integrator for each error."""
         places = result.result.places
         if not places:
             return ""
@@ -151,9 +151,8 @@ def _decades(numbers: Sequence[int]) -> str:
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the rows of a table with one row for each method and peer (other integrator).
 
-    A row contains the time of emission and the time of compilation. It also contains the average numbers of
-    operations in a step and the average CPU time of a step. These averages are taken from the successful run
-    with the smallest steps.
+    A row contains the emission time, the compilation time, the numbers of operations per step and the CPU
+    time per step. The values per step are averages over the successful run with the smallest steps.
     """
     lines = []
     for label, rows in entries.items():

@@ -1,7 +1,7 @@
 """The section about the emitted code of each method.
 
-It shows the arithmetic operations of a step, and the emitted files. It also lists the operations and
-function arguments that the code does not need.
+It shows the arithmetic operations of a step, and the emitted files. It also lists the simplifications: the
+operations and function arguments that the emitted code does not need.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from codegen.lab.subject import CompiledMethod, Subject
 
 
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
-    """Lists facts about the emitted module of every method.
+    """Lists the operations, the simplifications and the emission command of each emitted module.
 
-    The facts come from the manifest (the description) of the module.
+    They are read from the manifest (the description) of the module.
     """
 
     name = "emitted"
@@ -27,7 +27,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         return subject.compiled.measured
 
     def as_json(self, result: tuple[CompiledMethod, ...]) -> object:
-        """Return the module name, the operations, the simplifications and the command for every method."""
+        """Return the module name, operations, simplifications and emission command for each method."""
         keys = ("module", "operations", "left_out", "command")
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 

@@ -21,8 +21,8 @@ from orderconds.errors import InputError
 class Stored:
     """A drawn figure in the cache.
 
-    ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` maps names to the
-    numbers in the figure.
+    ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` contains
+    numbers that the figure shows, such as the final point of each run.
     """
 
     svg: str

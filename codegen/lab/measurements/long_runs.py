@@ -60,11 +60,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence that states for each method how the deviation of a conserved quantity grows.
+        """Return a sentence about the growth of the deviation of one conserved quantity.
 
-        The quantity is the energy. If the scene has no energy, the first invariant is used. If the scene has
-        no invariants, the residual of the manifold equations is used. For each law of growth, such as
-        ``bounded`` or ``drift``, the sentence lists the methods with this law.
+        For each law of growth, such as ``bounded`` or ``drift``, the sentence lists the methods with this
+        law. The quantity is the energy. If the scene has no energy, it is the first invariant. If the scene
+        has no invariants, it is the residual of the manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -130,10 +130,10 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d). Here d is the largest deviation of the quantity ``name`` up to the time t.
+    """Return points (t, d), where d is the largest deviation of the quantity ``name`` up to the time t.
 
-    A new point is added when d has grown by more than 2 % since the previous point. If all deviations are
-    finite, the final time is added too.
+    To limit the number of points, a point is added only if d has grown by more than 2 %. If all deviations
+    are finite, a point at the final time is added too. The points end before a deviation that is not finite.
     """
     for kept in run.kept:
         if kept.name != name:

@@ -17,18 +17,18 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Compares the observed order of the emitted code with the order from the order conditions.
+    """Compares the observed order of the emitted code with the order computed from the order conditions.
 
     The observed order is measured for every target, such as C or Python.
     """
 
     name = "orders"
     title = "Orders"
-    about = "observed orders of emitted code, compared with the order conditions"
+    about = "the observed orders of the emitted code, compared with the computed orders"
     json_key = "methods"
 
     def run(self, subject: Subject) -> Result:
-        """Run every method with decreasing step sizes, and determine the observed order."""
+        """Run each method with decreasing step sizes, and determine its observed order."""
         exact, progress, cache = subject.exact, subject.progress, subject.cache
         return subject.each(lambda m: order_study(m.compiled, exact, progress, cache))
 
@@ -37,7 +37,7 @@ class Orders(Measurement[Result]):
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every observed order equals the order from the order conditions."""
+        """Return True if no method failed and the verdict on each method is ``holds``."""
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
@@ -61,9 +61,9 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence that states for how many methods the observed order equals the computed order.
+        """Return a sentence with the number of methods whose observed order equals the computed order.
 
-        The sentence names the exceptions.
+        The sentence names the other methods.
         """
         total = len(result.measured) + len(result.failures)
         held = sum(m.verdict == "holds" for m in result.measured)
@@ -78,17 +78,16 @@ class Orders(Measurement[Result]):
         return f"{sentence} methods; the exceptions are {enumeration(others)}."
 
     def overview(self, result: Result, subject: Subject) -> Section:
-        """Return a paragraph that states for how many methods the observed order equals the computed
-        order.
-        """
+        """Return a paragraph with the number of methods whose observed order equals the computed order."""
         held = sum(m.verdict == "holds" for m in result.measured)
         return Section(OVERVIEW, {"held": held, "all": len(result.measured) + len(result.failures)})
 
 
 def agreement(spread: float | None) -> str:
-    """Return a text for ``spread``, the largest difference between final states (:class:`OrderStudy`).
+    """Return a text for ``spread`` (:class:`OrderStudy`).
 
-    ``spread`` is None if the final states could not be compared.
+    ``spread`` is the largest difference between the final states of the targets, such as C and Python. If the
+    final states could not be compared, ``spread`` is None.
     """
     if spread is None:
         return "no run"
