@@ -88,8 +88,8 @@ WIDTH = 200
     "--tolerance",
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
-    help="The uncertainty of binary floats. For a float x, one unit is 2^-53 max(1, |x|). Default: 8. If "
-    "UNITS is 0, the floats are exact.",
+    help="The uncertainty of a binary float x, in units of 2^-53 max(1, |x|). Default: 8. With 0, floats are "
+    "exact.",
 )
 @click.option(
     "--execute",

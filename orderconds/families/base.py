@@ -62,7 +62,7 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """True if formulas of the family divide by the weights b_i. Such a family requires non-zero weights."""
     search_limit: ClassVar[int] = 8
-    """The highest order that ``check`` tests if the tableau file states no order."""
+    """The highest order that ``check`` computes for a tableau file without a stated order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """A family whose conditions are checked instead of the conditions of the original family. ``method`` is
-    the checked method in a tableau format of ``family``."""
+    """A family whose conditions are checked in place of the conditions of another family. ``method`` is the
+    same method, converted to a tableau format that ``family`` reads."""
 
     family: Family
     method: Method

@@ -107,10 +107,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method is a composition of a symmetric method and the step sizes form a
-        palindrome. Otherwise return None.
+        """Return this family if a tableau file can state an order of its method in this family.
 
-        The tableau file should state the order of the method in the returned family.
+        The method must be a composition of a symmetric method. Its step sizes must form a palindrome. For
+        any other method, the result is None.
         """
         method = tableau.method
         if not isinstance(method, Composition):

@@ -132,7 +132,7 @@ def _newton(
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
-                raise NotProved("Newton's method failed: it left the neighbourhood of the decimals")
+                raise NotProved("Newton's method failed: a value moved too far from the decimal in the file")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
             return [decimal_places(point[j], digits) for j in free]
     raise NotProved("Newton's method, started at the decimals, does not converge")

@@ -27,7 +27,7 @@ class Residues:
 
     def __init__(self, prime: int = PRIMES[0], samples: int = 1) -> None:
         if not 2 < prime < 2**31:
-            raise ValueError(f"the prime {prime} must be at least 3 and less than 2^31")
+            raise ValueError(f"expected a prime from 3 to 2^31 - 1, found {prime}")
         self.prime, self.samples = prime, samples
         self.name = f"residues({prime})"
         self.zero = self.rational(0)

@@ -1,4 +1,4 @@
-"""Coefficients of tableau files in LaTeX."""
+"""LaTeX formulas for the coefficients of tableau files."""
 
 from __future__ import annotations
 

@@ -162,7 +162,7 @@ def _bits(x: Element) -> int:
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
     """Subtract the estimated work of ``count`` multiplications from the remaining work. The estimate is
-    quadratic or linear in the bits of the longest number."""
+    proportional to the number of bits of the longest number, or to its square."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1

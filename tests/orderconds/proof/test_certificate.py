@@ -145,7 +145,7 @@ def test_the_digits_that_a_source_prints_are_refined_and_recorded() -> None:
 
 def test_refining_what_solves_nothing_is_refused() -> None:
     wrong = text("cg4a").replace('b1 = "0.1', 'b1 = "0.9')
-    with pytest.raises(NotProved, match="left the neighbourhood of the decimals"):
+    with pytest.raises(NotProved, match="moved too far from the decimal"):
         refine(wrong)
 
 
