@@ -1,11 +1,12 @@
 """Two classical integrators in C: DOP853 with step-size control, and RK4 with projection after each step.
 
 The integrators solve the differential equation of a scene in the coordinates of the state. The module
-:mod:`codegen.lab.straight_line_field` generates the C code of the right-hand side. The compiler flags are
-those of emitted modules. The coefficients of DOP853 come from the tableau ``dop853``.
+:mod:`codegen.lab.straight_line_field` generates the C code of the right-hand side. The integrators and the
+emitted modules are compiled with the same compiler flags. The coefficients of DOP853 come from the tableau
+``dop853``.
 
-The error estimate of DOP853 uses two methods of lower order. One is an embedded method of order 5. The other
-is a quadrature rule of order 3 with the nodes of stages 1, 9 and 12. The source is section II.10 of Hairer,
+The error estimate of DOP853 uses an embedded method of order 5, and a quadrature rule of order 3. The nodes
+of the quadrature rule are the nodes of stages 1, 9 and 12. The source is section II.10 of Hairer,
 Norsett and Wanner I. Section II.4 describes the step-size control.
 """
 
@@ -35,7 +36,7 @@ REASONS = {1: "the step became too small", 2: "a number is not finite", 3: "too 
 
 
 def peer(name: str) -> Peer:
-    """Return the peer ``c-dop853`` or ``c-rk4-projected``.
+    """Return the peer (an integrator for comparison) ``c-dop853`` or ``c-rk4-projected``.
 
     The user chooses a tolerance for ``c-dop853``, and a number of steps for ``c-rk4-projected``.
     """

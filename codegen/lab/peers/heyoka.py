@@ -14,11 +14,11 @@ from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
 LONG = 1000
-"""The compact mode of heyoka is used for vector fields with more than LONG operations."""
+"""If a vector field has more than LONG operations, heyoka's compact mode is used. It compiles faster."""
 
 
 def peer(name: str) -> Peer:
-    """Return the peer ``heyoka``, the only peer of this module."""
+    """Return the peer (an integrator for comparison) ``heyoka``."""
     import heyoka
 
     return Peer(name, "tolerance", _prepare, f"heyoka {heyoka.__version__}")
@@ -47,6 +47,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # The time of run(0), over an empty interval, is the overhead of a call. heyoka computes about one step
-    # for an empty interval, so the overhead is slightly too large.
+    # run(0) integrates over an empty interval, and its time is the overhead of a call. heyoka computes about
+    # one step for an empty interval. Therefore, the measured overhead is slightly too large.
     return Prepared(run, lambda: run(0))

@@ -16,7 +16,7 @@ MOST_STEPS = 1_000_000
 
 
 def peer(name: str) -> Peer:
-    """Return the peer ``diffrax``, the only peer of this module."""
+    """Return the peer (an integrator for comparison) ``diffrax``."""
     import diffrax
 
     return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")
@@ -59,5 +59,5 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         steps = int(solution.stats["num_steps"])
         return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 
-    run()  # The first call compiles the function.
+    run()  # The first call compiles ``solve``. The compilation must not be part of a timed run.
     return Prepared(run)

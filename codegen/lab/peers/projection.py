@@ -2,8 +2,8 @@
 
 A rotation matrix g is replaced by g (3 I - g^T g)/2, where I is the identity matrix and g^T is the transpose.
 This is one Newton step towards the orthogonal polar factor of g. If the distance of g from the orthogonal
-matrices is e, the distance of the replacement is O(e^2). A point on a sphere around the origin is scaled to
-the radius of the sphere. Momenta are not changed.
+matrices is e, the distance of the new matrix from the orthogonal matrices is O(e^2). A point near a sphere
+around the origin is scaled to the radius of the sphere. Momenta are not changed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
     """Return the projection of a state onto the manifold of the scene.
 
-    Raises :class:`SceneError` if there is no projection for a part of the state.
+    Raises :class:`SceneError` if no projection is known for the manifold of a group element or point.
     """
     result: list[Scalar] = []
     start = 0

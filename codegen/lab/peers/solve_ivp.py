@@ -20,7 +20,7 @@ FUNCTIONS = of_scalars(math)
 def peer(name: str) -> Peer:
     """Return a SciPy solver for comparison. ``name`` is a name such as ``scipy-radau``.
 
-    If the name ends in ``-projected``, the state is projected onto the manifold after each step.
+    If the name ends in ``-projected``, the state is projected onto the manifold of the scene after each step.
     """
     import scipy
 

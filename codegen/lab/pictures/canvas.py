@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
 
 WIDE = 7.4
-"""The width in inches of a figure that is as wide as a page, for example with several columns of panels."""
+"""The width in inches of a picture that fills the width of a page."""
 
 DOT = 1.1
 """The diameter of a dot in printer's points (units of 1/72 inch)."""
@@ -82,10 +82,10 @@ class Canvas:
     ) -> Canvas:
         """Return a canvas with ``count`` panels.
 
-        ``columns`` is the largest number of panels in a row, with one exception: three panels are in one row
-        if ``columns`` is at least 2. ``height`` is the height of a panel in inches. ``width`` is the width of
-        the picture in inches. If ``width`` is 0, the number of columns determines the width. If ``space`` is
-        True, the panels have three axes.
+        ``columns`` is the largest number of panels in a row. There is one exception: if ``columns`` is 2,
+        three panels are nevertheless in one row. ``height`` is the height of a panel in inches. ``width`` is
+        the width of the picture in inches. If ``width`` is 0, the number of columns determines the width. If
+        ``space`` is True, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -109,7 +109,7 @@ class Canvas:
 
         ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` contains the
         indices of the points with markers. ``texts`` contains the texts of these markers. ``looks`` contains
-        keyword arguments of Matplotlib's ``plot``. An argument in ``looks`` overrides ``style``.
+        keyword arguments of Matplotlib's ``plot``, which override ``style``.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -133,7 +133,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # Otherwise Matplotlib would remove the dots, which have length zero.
+        path.should_simplify = False  # A simplified path would lose lines of length zero.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)
@@ -141,7 +141,7 @@ class Canvas:
             axes.plot([], [], label=label, linestyle="", marker="o", markersize=3, color=looks["color"])
 
     def title(self, axes: Axes, label: str) -> None:
-        """Write a label above a panel, as the title of the panel. The legend omits this label."""
+        """Write the label of a series above a panel, as a title. The legend omits this label."""
         axes.set_title(label, fontsize=9, color=INK)
         self.titled.add(label)
 

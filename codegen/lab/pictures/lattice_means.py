@@ -54,9 +54,9 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Make a run. Return an array of output times, and an array of means over the sites.
+    """Return the output times of a run, and the means over the sites as a two-dimensional array.
 
-    Each row of the second array contains the means of all quantities at one output time.
+    Each row of this array contains the means of all quantities at one output time.
     """
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
@@ -86,7 +86,8 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
     coordinates of a site. On a periodic lattice, the formula may also contain coordinates of neighbours.
 
     Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a quantity is not
-    a formula. The same error is raised for coordinates of neighbours on a lattice with an open boundary.
+    a formula. Raises SceneError if a formula contains coordinates of neighbours on a lattice with an open
+    boundary.
     """
     import sympy
 
@@ -128,7 +129,8 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 def _formula(problem: Problem, quantity: Quantity) -> Any:
     """Return the quantity if it is a formula. Raise SceneError if it is the name of an invariant.
 
-    An invariant is constant at every site. The curve of its mean would be a horizontal line.
+    An invariant of a lattice scene is constant in time at each site. The curve of its mean would be a
+    horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
@@ -138,10 +140,9 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return one array for each coordinate of a site.
+    """Return, for each coordinate of a site, the array of its values on the shifted lattice.
 
-    The array contains, for each site k, the value of the coordinate at the site k + ``offset``. The lattice
-    is continued periodically.
+    The entry for the site k is the value at the site k + ``offset``, with periodic boundary conditions.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

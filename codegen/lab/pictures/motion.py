@@ -42,7 +42,7 @@ class _Sheet:
     The projection of a point has a horizontal coordinate and a vertical coordinate. The map projects a point,
     and then scales and shifts both coordinates.
 
-    - ``frame``: the matrix of the projection.
+    - ``frame``: the rotation matrix that maps a point to its horizontal, vertical and depth coordinates.
     - ``left``: the least horizontal coordinate of the drawn points.
     - ``high``, ``low``: the largest and the least vertical coordinate of the drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
@@ -90,7 +90,7 @@ def draw(figure: Motion, source: Source) -> Drawn:
     """Return the picture of a figure.
 
     Raises :class:`codegen.errors.SceneError` if the figure does not have exactly one run, or if a coordinate
-    of the body is not finite.
+    of a bar or of the traced point is not finite.
     """
     if len(figure.runs) != 1:
         raise SceneError(
@@ -104,7 +104,9 @@ def draw(figure: Motion, source: Source) -> Drawn:
     rows = source.values(run, [x for place in places for x in place])
     if not numpy.isfinite(rows).all():
         raise SceneError(
-            "a coordinate of the body is not finite", where=source.problem.name, expected="finite coordinates"
+            "a coordinate of a bar or of the traced point is not finite",
+            where=source.problem.name,
+            expected="finite coordinates",
         )
     points = rows.reshape(len(places), 3, -1)
     frame = projection(*figure.direction)
@@ -195,17 +197,18 @@ def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> 
 
 
 def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the length of a bar in the picture at each time."""
+    """Return the length of a projected bar at each time."""
     lengths: numpy.ndarray = numpy.hypot(*(bar[1] - bar[0]))
     return lengths
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the transform that maps a horizontal line to the position of a bar at one time.
+    """Return the transform that maps a horizontal line to a projected bar at one time.
 
-    ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
-    begins at the origin. Its length is the largest length of the bar over all times. If ``unit`` is empty,
-    the result is an SVG transform. If ``unit`` is ``px``, the result is a CSS transform.
+    ``bar`` contains the two ends of the projected bar at all times. ``k`` is the index of the time, and
+    ``turn`` is the angle of the projected bar in degrees. The horizontal line begins at the origin. Its
+    length is the largest length of the projected bar. If ``unit`` is empty, the result is an SVG transform.
+    If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -214,7 +217,7 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
 
 
 def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the angle of a bar in the picture at each time, in degrees. It has no jumps of a full turn."""
+    """Return the angle of a projected bar at each time, in degrees, without jumps of 360 degrees."""
     difference = bar[1] - bar[0]
     turns: numpy.ndarray = numpy.degrees(numpy.unwrap(numpy.arctan2(difference[1], difference[0])))
     return turns

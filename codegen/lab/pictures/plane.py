@@ -58,9 +58,9 @@ def _draw_run(
 ) -> None:
     """Draw the curve of a run.
 
-    If ``figure.dots`` is True, each point is drawn as a dot. Otherwise, the curve is a line. ``points``
-    contains the x coordinates and the y coordinates of the points. ``times`` contains the time of each point.
-    If the run is repeated for several parameter values, ``times`` contains these values.
+    ``points`` contains the x coordinates and the y coordinates of the points. ``times`` contains the time of
+    each point. If the run is repeated for several parameter values, ``times`` contains these values. If
+    ``figure.dots`` is True, each point is drawn as a dot. Otherwise, the curve is a line.
     """
     x, y = points
     style = styles(figure)[run.name]

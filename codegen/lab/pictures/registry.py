@@ -53,15 +53,15 @@ def register(kind: type[Figure], draw: Draw) -> None:
 
 
 def unregister(kind: type[Figure]) -> None:
-    """Remove the function that :func:`register` added for the class ``kind``."""
+    """Undo :func:`register` for the class ``kind``."""
     _registered.pop(kind, None)
 
 
 def draw(figure: Figure, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Raises SceneError if this class of figures has no drawing function. Raises SceneError if the figure
-    cannot be drawn, for example after a failed reference run.
+    Raises SceneError if this class of figures has no drawing function, or if the figure cannot be drawn. For
+    example, a figure cannot be drawn if its reference run fails.
     """
     for kind in type(figure).__mro__:
         if kind in _registered:

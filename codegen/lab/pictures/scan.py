@@ -80,8 +80,8 @@ def minimum(
 ) -> tuple[float, float]:
     """Return a pair: the parameter value with the least error, and the least error.
 
-    ``values`` contains parameter values in order. ``sizes`` contains the error for each of these values.
-    Brent's method minimises the error in the neighbourhood of the best of these values.
+    ``values`` contains parameter values in order, and ``sizes`` contains their errors. Brent's method
+    minimises the error between the two neighbours of the value with the least error.
     """
     from scipy.optimize import minimize_scalar
 

@@ -33,9 +33,9 @@ class Path:
     """The states of a run that a figure shows.
 
     Each row of ``states`` is the state at one of the output times, and ``times`` contains these times. A
-    sweep repeats a run with several values of a parameter. In this case, ``states`` contains the final
-    states, and ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended
-    early, or '' if all steps succeeded.
+    sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
+    ``states`` contains the final states, and ``times`` contains these values. ``failure`` is the reason why
+    the run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -44,9 +44,9 @@ class Path:
 
 
 class Source:
-    """Makes the runs for the figures of one scene.
+    """Runs emitted modules for the figures of one scene.
 
-    The emitted modules and the results are stored. Therefore each run is made only once.
+    The emitted modules and the results of :meth:`path` are stored and reused.
     """
 
     def __init__(self, problem: Problem, progress: Progress = str) -> None:
@@ -57,7 +57,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run: the scene that the run names, or by default the scene of the figure."""
+        """Return the scene that a run names. The default is the scene of the figures."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -86,7 +86,8 @@ class Source:
     def path(self, run: Run) -> Path:
         """Return the states of a run at its output times.
 
-        If the run has a sweep over a parameter, return the final state for each value of the parameter.
+        A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
+        return the final state for each of these values.
         """
         if run not in self._paths:
             integrator = self.integrator(run)
@@ -131,7 +132,7 @@ class Source:
         path, problem, rows = self.path(run), self.problem_of(run), self.path(run).states.T
         if run.sweep is None:
             return formulas(problem, quantities)(rows, path.times)
-        # The states are final states, and ``path.times`` contains the values of the sweep.
+        # For a sweep, ``path.states`` contains final states, and ``path.times`` contains the varied values.
         values, first = path.times, self.integrator(run).span[0]
         if run.sweep.name == STEP:
             return formulas(problem, quantities)(rows, first + values * run.steps)
@@ -169,7 +170,7 @@ def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") 
     import sympy
 
     names = (swept,) if swept else ()
-    # A run-time parameter stays a symbol in the formulas.
+    # The swept parameter must stay a symbol in the formulas. Run-time parameters stay symbols.
     problem = replace(problem, runtime=(*problem.runtime, *names))
     reader = Reader(problem.name, [sympy.Symbol(s) for s in problem.symbols])
     domain = ExprDomain(reader.space)
@@ -211,7 +212,7 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the parameter values of the sweep of a run.
+    """Return the values of the parameter or of the step size with which a sweep repeats a run.
 
     If the run has no sweep, the result is [].
     """
