@@ -1,8 +1,9 @@
 """The strict protocol: a test of the order of a method on demanding scenes, in arithmetic with 50 digits.
 
 For each scene of :mod:`codegen.lab.orders.strict_scenes`, the slopes of log(error) against log(step size) are
-compared with a stated order. A method passes if the slopes converge on every scene, and if each limit differs
-from the stated order by at most 0.25. Therefore a method fails if its order is lower or higher than stated.
+compared with a stated order. In general, a method passes on a scene if the slopes settle as the step size
+decreases, and if the last slope differs from the stated order by at most 0.25. A method whose order is lower
+or higher than stated does not pass.
 """
 
 from __future__ import annotations
@@ -24,10 +25,12 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the order that is tested. The function returns the first of these orders that exists:
+    """Return the order that the strict protocol tests.
+
+    It is the first of these orders that exists:
 
     - the order ``stated``,
-    - the order that the tableau file of the method claims for the family of the method,
+    - the order that the tableau file claims for the family of the method,
     - the order computed from the order conditions.
     """
     if stated is not None:
@@ -47,9 +50,9 @@ def strict(
 ) -> Iterator[Convergence]:
     """Test the order of the method on each scene, and yield the results.
 
-    By default, the scenes are those of :func:`strict_scenes` for the family of the method. ``tell`` is called
-    with a text before each test. Instead of the compiled method c, the method ``alter(c)`` is tested. If
-    ``alter`` inserts an error into c, the results show whether the test finds the error.
+    By default, the scenes are those of :func:`strict_scenes` for the family of the method. Before each
+    test, ``tell`` is called with a text that names the method and the scene. ``alter`` changes the compiled
+    method before the test. For example, ``alter`` inserts an error, and a caller checks that the test fails.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

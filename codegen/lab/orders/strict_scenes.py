@@ -1,4 +1,6 @@
-"""The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
+"""The scenes (test problems) of the strict protocol, which tests the order of a method.
+
+The scenes have no symmetry that could hide an error in a method.
 
 The documentation of some published software states order 4 for methods whose true order is 2. The tests of
 the software did not show the true order, because the equations of the tests were too special. The tests used
@@ -46,8 +48,7 @@ from codegen.scene.problem import Problem
 SPAN = (0, "1/4")
 """The time span of all scenes.
 
-The span is short because the equations of some scenes are polynomial. Their solutions may become infinite
-after a short time.
+The span is short, because the solutions of polynomial equations can become infinite after a short time.
 """
 
 

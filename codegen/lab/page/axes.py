@@ -109,7 +109,8 @@ def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
 def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
     """Write a small text near the point ``at``.
 
-    ``shift`` is the offset of the text in units of 1/72 inch. ``side`` is its alignment, such as ``left``.
+    ``shift`` is the offset of the text in units of 1/72 inch. ``side`` is the horizontal alignment,
+    such as ``left``.
     """
     axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 

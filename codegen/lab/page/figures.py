@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MARKS = 9
-"""The largest number of markers on a line with many points."""
+"""The largest number of markers on a curve over time, or on a boundary line of a stability region."""
 
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
@@ -33,8 +33,8 @@ class Curve:
     """A labelled sequence of points (x, y) with its style.
 
     ``order`` is the slope of a reference line. A curve without a reference line has the order None.
-    If ``upper`` is not empty, it contains a number u for each point (x, y). A horizontal bar is drawn from x
-    to u.
+    ``upper`` is empty, or it contains a number u for each point (x, y). A horizontal bar shows the range from
+    x to u.
     """
 
     label: str
@@ -59,7 +59,8 @@ class _Drawing:
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
         """Draw a curve. ``marks`` contains the indices of the points with markers.
 
-        ``value(x, y)`` is the text of the marker at (x, y).
+        If the pointer is on the marker at (x, y), the browser displays the label of the curve and the text
+        ``value(x, y)``.
         """
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
@@ -172,8 +173,9 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
     """Return a diagram in which the stability region of each method is shaded.
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
-    stability region contains the points z of the complex plane with |R(z)| <= 1. If two methods have the same
-    boundary, their markers are at different points of the boundary.
+    stability region contains the points z of the complex plane with |R(z)| <= 1.
+    Markers are drawn on the boundary. If two methods have the same boundary, their markers are at different
+    points.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -225,9 +227,7 @@ class _Plane:
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
         """Return a grid for a diagram of the stability regions of ``functions``.
 
-        The grid covers a rectangle inside :data:`PLANE`. The rectangle contains the stability regions in
-        PLANE and a margin around them. If the margin crosses the upper or the lower edge of PLANE, the
-        rectangle is PLANE.
+        The grid covers the stability regions and a margin around them, but nothing outside :data:`PLANE`.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -246,7 +246,7 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at the grid points, as a list for each value of y.
+        """Return the absolute values of ``function`` at grid points. Each inner list belongs to one y.
 
         The grid points are those whose indices in ``xs`` and ``ys`` are multiples of ``step``. Values above
         1000 are replaced by 1000.
@@ -273,10 +273,9 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points at about equal distances on a contour. ``segments`` contains the lines of the contour.
+    """Return points at about equal distances on a contour, which consists of the polylines ``segments``.
 
-    Each line is divided into intervals of equal length, and one point of each interval is returned. ``shift``
-    is the place of the point in the interval: 0 is the beginning, and 1 is the end.
+    ``shift`` (from 0 to 1) moves the points along the contour by a fraction of their distance.
     """
     points: list[Point] = []
     for segment in segments:
@@ -314,7 +313,7 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
     """Draw the line y = C h^order over the step sizes h of a curve.
 
-    The constant C is chosen so that the line is slightly below the curve at the smallest step size.
+    With the chosen constant C, the line is slightly below the curve at the smallest step size.
     """
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
@@ -326,8 +325,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    The curves of the diagram seldom reach the lower left corner or the upper right corner. The function
-    chooses the corner with fewer of the given points.
+    The lines are in the lower left or the upper right corner, because the curves seldom reach these corners.
+    The function chooses the corner with fewer ``points``.
     """
     if not points:
         return

@@ -42,7 +42,7 @@ def power_of_ten(x: float) -> str:
 
 
 def scientific(x: float, digits: int = 2) -> str:
-    """Return a number as text in mathematical notation, with ``digits`` significant digits.
+    """Return a number as text in mathematical notation, with at most ``digits`` significant digits.
 
     >>> scientific(8.86e-35), scientific(0.0), scientific(-0.12345, 4), scientific(float("inf"))
     ('8.9 · 10⁻³⁵', '0', '−0.1235', '∞')
@@ -56,7 +56,7 @@ def scientific(x: float, digits: int = 2) -> str:
 
 
 def seconds(x: float) -> str:
-    """Return a time as text with three significant digits and a unit. The argument is in seconds.
+    """Return the time ``x`` in seconds as text with a unit and at most three significant digits.
 
     >>> seconds(1e-5), seconds(0.1), seconds(1.234e-9), seconds(2.0)
     ('10 µs', '100 ms', '1.23 ns', '2 s')
@@ -68,9 +68,9 @@ def seconds(x: float) -> str:
 
 
 def duration(time: float | None) -> str:
-    """Return a time as text with three significant digits and a unit. If ``time`` is None, return a dash.
+    """Return a time in seconds as text with a unit and at most three significant digits.
 
-    ``time`` is in seconds.
+    If ``time`` is None, return a dash.
 
     >>> duration(1.234e-5), duration(None)
     ('12.3 µs', '–')

@@ -63,7 +63,7 @@ class Style:
 
 
 def numbered(place: int) -> Style:
-    """Return the style of a curve of a figure. The curves are numbered from 0.
+    """Return the style of the curve with the number ``place``. The curves of a figure are numbered from 0.
 
     The colours repeat after :data:`COLOURS` curves. The markers and the dash patterns repeat in the same way
     after len(MARKERS) curves and len(DASHES) curves.
@@ -76,8 +76,8 @@ class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
     The default methods (the methods in ``PICTURED``) have fixed colours and markers. Another method gets the
-    colour and the marker that occur least often in the report. If several colours or markers occur least
-    often, the name of the method determines the choice.
+    colour and the marker that fewest methods have. If several colours or markers are equally rare, the name
+    of the method determines the choice.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -141,10 +141,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    ``used`` and ``taken`` contain pairs (colour, marker). The function chooses the colour first, then the
-    marker. If several markers occur least often, the function prefers a marker that forms a new pair with
-    the colour. A pair is new if it is neither in ``used`` nor in ``taken``. If several colours or markers
-    remain, the function takes the first one in cyclic order. ``first`` determines where this order begins.
+    If several markers are equally rare, the function prefers a pair (colour, marker) that is neither in
+    ``used`` nor in ``taken``. If several colours or markers remain, ``first`` determines the choice.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -2,8 +2,8 @@
 
 Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables, which
 have different values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers
-in the SVG are hashes of the drawn shapes and the name of the figure. Therefore the same figure with the same
-name always gives the same SVG. Figures with different names have different identifiers.
+in the SVG depend only on the drawn shapes and the name of the figure. Therefore a figure that is drawn again
+gives the same SVG. Figures with different names have different identifiers.
 
 The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
 attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
@@ -95,7 +95,7 @@ class Text:
 def svg_element(figure: Figure, text: Text) -> Markup:
     """Return the figure as an SVG element.
 
-    The element has no width, no height and no date. Its colours are the CSS variables of the page.
+    The element has no fixed size and contains no date. Its colours are the CSS variables of the page.
     """
     import matplotlib
 
@@ -120,7 +120,7 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
     For the curve with the number k, ``id="series:k"`` becomes ``data-series="k"``. For the legend entry of
     the curve, ``id="key:k"`` becomes ``data-key="k"``. ``values`` maps the number of a curve to the texts of
-    its markers. The texts are added as titles.
+    its markers. Each text becomes the title of its marker.
     """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
@@ -130,8 +130,7 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add a title to each marker of a curve. The titles are ``values``, in the order of the markers in the
-    SVG.
+    """Add the titles ``values`` to the markers of a curve. A browser displays a title as a tooltip.
 
     ``body`` begins with the markers of the curve. Later markers, such as those of the legend, get no title.
     """
@@ -181,7 +180,7 @@ def key(style: Style) -> Markup:
 def _outline(marker: str) -> str:
     """Return the outline of a Matplotlib marker as SVG path data.
 
-    The outline is centred in the picture that :func:`key` returns.
+    The centre of the outline is (12, 5), the centre of the element that :func:`key` returns.
     """
     from matplotlib.markers import MarkerStyle
 

@@ -6,7 +6,7 @@ compilation, is reported separately as set-up time.
 
 A peer whose name ends in ``projected`` projects the state onto the manifold after each step. The solver LSODA
 has no projected peer. LSODA is a multistep method and stores data of earlier steps. A projection of the
-current state would leave these data unchanged.
+state would not change these data. Therefore the data would not fit the projected state.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Run(Protocol):
     """The type of a function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate from the start of the time span, over ``spans`` times the length of the time span."""
+        """Integrate over ``spans`` times the length of the time span, from the start of the span."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,8 @@ class Peer:
     """An integrator for comparison. It is part of other software, or it is a classical integrator in C.
 
     - ``controlled``: the quantity that the user chooses, ``"tolerance"`` or ``"steps"`` (number of steps).
-    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the value of this quantity.
+    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the tolerance or the number
+      of steps.
     - ``version``: the name and version of the software.
     - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """
@@ -80,7 +81,7 @@ class Peer:
 
 
 class PeerModule(Protocol):
-    """The interface of a module of this package that runs peers."""
+    """The interface of the modules in :data:`PEERS`."""
 
     def peer(self, name: str) -> Peer:
         """Return the peer with the given name."""
