@@ -1,10 +1,11 @@
 """Vector fields that are only piecewise smooth, for the reference solution of a scene.
 
-A selection is an operation with several cases, such as an absolute value or a table. The code calls a case a
-*side*. The field is smooth while no selection changes its case (:mod:`codegen.ir.smoothness`). The margin of
-a selection is a function of the state and the time. The margin is positive while the current case applies. An
-event is a time at which a margin becomes zero. After an event, another case applies. The integration then
-continues with the smooth field of this case.
+A selection is an operation with several cases, such as an absolute value (:mod:`codegen.ir.smoothness`). The
+code calls a case a *side*. The field is smooth while the cases of all selections are constant.
+
+The margins of a selection are functions of the state and the time. They are positive while the current case
+applies. An event is a time at which a margin becomes zero. There the selection changes its case, and the
+integration continues with the smooth field of the new case.
 """
 
 from __future__ import annotations
@@ -29,34 +30,35 @@ from codegen.scene.problem import TIME, Problem
 AHEAD = 1e-34
 """The case of a selection just after a time t is determined at the time t + AHEAD.
 
-A selection is an operation with several cases. If its case changes at t, rounding errors would decide the
-case at t itself. AHEAD is much larger than the error of t, and much smaller than the time scales of the
-solution.
+A selection is an operation with several cases. If a selection changes its case at t, rounding errors decide
+which case is found at t itself. AHEAD is much larger than the rounding error of t, and much smaller than the
+time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
 """Two times after an event, measured from the event.
 
-At an event, one smooth field replaces another. The difference of these two fields is computed at both times.
-The ratio of the differences shows how many derivatives of the field are continuous at the event.
+At an event, a new smooth field replaces the old smooth field. If the first k derivatives are continuous, the
+difference of the old and the new field grows like the power k + 1 of the time after the event. The
+differences at the two times determine k.
 """
 
 VANISHING = 1e-30
 """A margin whose absolute value is less than VANISHING counts as zero.
 
-A margin is a function of the state and the time. It becomes zero at an event.
+A margin is a function of the state and the time. At a zero of a margin, the field can be non-smooth.
 """
 
 SUBSTEPS = 24
-"""The largest number of points inside a step at which the margins are tested.
+"""The largest number of points inside a step at which the signs of the margins are tested.
 
-A negative margin shows that an event has occurred.
+A negative margin shows that the case of a selection has changed.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that :meth:`PiecewiseField.beyond` returns.
+"""The largest number that :meth:`PiecewiseField.beyond` returns for the continuous derivatives of a field.
 
 If the field has more continuous derivatives, the result is MOST.
 """
@@ -66,8 +68,8 @@ If the field has more continuous derivatives, the result is MOST.
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    Each combination of cases has its own smooth field. ``compiled`` is a dictionary of the results of
-    :meth:`on`, and its keys are combinations of cases.
+    Each combination of cases has its own smooth field. ``compiled`` stores the results of :meth:`on`. A key
+    of this dictionary contains one case of each selection.
     """
 
     scene: Problem
@@ -88,11 +90,11 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return two functions of (state, t). The first is a smooth field, and the second returns margins.
+        """Return two functions of (state, t): a smooth field, and the margins of all selections.
 
         A selection is an operation with several cases, such as an absolute value. ``sides`` contains one case
-        of each selection, and the smooth field uses these cases. The second function returns one margin for
-        each selection. The margin is positive while the case in ``sides`` applies.
+        of each selection. The smooth field uses the cases in ``sides``. While these cases apply, all margins
+        are positive. An absolute value has one margin, and a table has one or two margins.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -104,8 +106,9 @@ class PiecewiseField:
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
         """Return the case of each selection just after the time t.
 
-        A selection is an operation with several cases. At the time t, the solution has the state y and the
-        derivative ``flow(y, t)``. By default, ``flow`` is the field of the scene.
+        A selection is an operation with several cases. The state just after t is computed by a short Euler
+        step from the state y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of the
+        scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -118,11 +121,12 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the case of each selection after an event at (y, t), and the smoothness of the field there.
+        """Return the case of each selection after an event, and the smoothness of the field at the event.
 
-        A selection is an operation with several cases. ``sides`` contains the cases before the event. The
-        smoothness is the number of continuous derivatives of the field, or -1 if the field is discontinuous.
-        Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
+        A selection is an operation with several cases. ``sides`` contains the cases before the event, which
+        occurs at the state y and the time t. The smoothness is the number of continuous derivatives of the
+        field, or -1 if the field is discontinuous. Raises :class:`SceneError` if the solution slides along a
+        discontinuity of the field.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -147,19 +151,19 @@ class PiecewiseField:
 
 
 Advance = Callable[..., tuple[Vector, float]]
-"""A function of (field, y, t, length) that makes one step from the state y at the time t.
+"""A function of (field, y, t, length) that makes one step of the given length from the state y at the time t.
 
-It returns the new state and an error estimate.
+The result is the new state and an estimate of the error of the new state.
 """
 
 
 class Sided:
-    """A vector field as a function of (state, t). It uses the current case of each selection.
+    """A vector field as a function of (state, t). The function uses the current case of each selection.
 
     A selection is an operation with several cases. ``sides`` contains the current case of each selection. At
-    an event, the case of a selection changes. For each past event, ``kinks`` contains the number of
-    continuous derivatives of the field, or -1 if the field is discontinuous. ``points`` contains the pairs
-    (state, t) of the latest evaluations of the field.
+    an event, the case of a selection changes. ``kinks`` contains the smoothness of the field at each past
+    event: the number of continuous derivatives, or -1 if the field is discontinuous. ``points`` contains the
+    pairs (state, t) of the latest evaluations of the field.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -183,9 +187,9 @@ class Sided:
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margin of each selection, that is, of each operation with several cases.
+        """Return the margins of all selections, that is, of all operations with several cases.
 
-        A margin is positive while the current case of its selection applies.
+        The margins of a selection are positive while the current case of the selection applies.
         """
         return self.fields.on(self.sides)[1](y, t)
 
@@ -194,8 +198,8 @@ class Sided:
 
         A negative margin shows that the case of a selection has changed. The step begins at the state ``y``
         and the time ``t``, has the given length, and ends at the state ``new``. The end of the step is always
-        tested. In a step of more than twice the shortest permitted length, the points of the last
-        :data:`SUBSTEPS` evaluations of the field are tested, too.
+        tested. If the step is longer than twice the shortest permitted length, points inside the step are
+        tested, too. These are the points of the last :data:`SUBSTEPS` evaluations of the field.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -212,9 +216,9 @@ class Sided:
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # If no margin is negative at the end of the step, the root search has no interval with a sign change.
-        # If a negative margin was zero at the beginning of the step, the search would return the beginning.
-        # In both cases the caller must try a shorter step.
+        # The root search needs a margin that is positive at the beginning and negative at the end of the
+        # step. If no margin is negative at the end, or if such a margin is zero at the beginning, the caller
+        # must try a shorter step.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -229,7 +233,7 @@ class Sided:
         self.kinks.append(smooth)
         if len(self.kinks) > MOST_EVENTS:
             raise SceneError(
-                f"more than {MOST_EVENTS} points where the field is not smooth",
+                f"the solution passes more than {MOST_EVENTS} points where the field is not smooth",
                 where=self.fields.scene.name,
                 expected="a solution with fewer of these points",
                 hint="shorten the span",

@@ -4,11 +4,11 @@ In the differential equation, the derivative of the state y is the action of the
 y. The modified midpoint rule is applied to the coordinates of y. The results of this rule are extrapolated in
 the squared step size (Hairer, Norsett and Wanner I, section II.9).
 
-The reference uses no group exponential and no code of a method. An error in an exponential or in a method
-therefore cannot change the reference. A comparison of the method with the reference shows the error.
+The reference uses no group exponential and no code of the tested integrators. An error in this code therefore
+cannot change the reference.
 
-The equation is solved twice, with different order and tolerance. The reference is accepted only if the two
-final states agree. The uncertainty is the maximum norm of their difference.
+The equation is solved twice, with two extrapolation orders and two tolerances. The reference is accepted only
+if the two final states agree. The uncertainty is the maximum norm of the difference of the final states.
 """
 
 from __future__ import annotations
@@ -31,49 +31,48 @@ from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""The number of decimal digits of the initial state and of the reference solution.
+"""The number of decimal digits with which the initial state and the reference solution are stored.
 
 The reference solution has fewer correct digits (see :data:`AGREEMENT`).
 """
 
 BITS = 200
-"""The working precision of the Arb balls in bits. 200 bits are about 60 decimal digits."""
+"""The working precision of the Arb arithmetic in bits. 200 bits are about 60 decimal digits."""
 
 RUNS = ((14, -33), (16, -36))
-"""The settings of the two runs of a reference solution: one pair (columns, e) for each run.
+"""The settings of the two integrations of a reference solution: a pair (columns, e) for each integration.
 
-``columns`` is the number of columns of the extrapolation table, and 10^e is the tolerance. The second run
-gives the result. The first run is used only to check this result.
+``columns`` is the number of columns of the extrapolation table, and 10^e is the tolerance. The second
+integration gives the reference solution. The first integration only checks the second.
 """
 
 AGREEMENT = 1e-28
-"""The largest accepted difference between the final states of the two runs of a reference solution.
+"""The largest accepted difference between the final states of the two integrations (see :data:`RUNS`).
 
-The difference is relative to the largest coordinate of the state, or absolute if this coordinate is less
-than 1. :data:`RUNS` describes the two runs.
+The difference is measured in the maximum norm. If the norm of the final state is at least 1, the difference
+is divided by this norm.
 """
 
 LEAST_STEP = 1e-6
-"""The shortest accepted step, as a fraction of the time span.
+"""The length of the shortest permitted step, as a fraction of the time span.
 
-If a step becomes shorter, the solution is probably close to a singularity, and SceneError is raised.
+If the step-size control demands a shorter step, SceneError is raised. A usual cause is a singularity.
 """
 
 MOST_STEPS = 10_000
-"""The largest number of extrapolation steps.
+"""The largest number of extrapolation steps, including rejected steps.
 
-If more steps are necessary, SceneError is raised. The equation is then too stiff, or the time span is too
-long.
+If more steps are necessary, SceneError is raised. Usual causes are a stiff equation and a long time span.
 """
 
 
 @dataclass(frozen=True)
 class Reference:
-    """The state of a scene at the end of its span.
+    """The reference solution of a scene: the state at the end of the time span.
 
     ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of :data:`DIGITS`
-    digits, in the order of the attribute ``symbols`` of the scene. The state is computed twice, with
-    different order and tolerance. ``uncertainty`` is the maximum norm of the difference of the two results.
+    digits, in the order of the attribute ``symbols`` of the scene. The state is computed twice, with two
+    extrapolation orders. ``uncertainty`` is the maximum norm of the difference of the two states.
     A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks`` contains the
     number of continuous derivatives of the field, or -1 if the field is discontinuous.
     """
@@ -84,7 +83,7 @@ class Reference:
     kinks: tuple[int, ...] = ()
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
-        """Return the coordinates of the state as decimal strings with ``count`` significant digits."""
+        """Return the coordinates in ``state`` as decimal strings with ``count`` significant digits."""
         import mpmath
 
         return tuple(mpmath.nstr(x, count) for x in self.state)
@@ -105,8 +104,8 @@ def cached_reference(
     """Return the reference solution of a scene from the cache.
 
     If the cache does not contain the solution, the function computes the solution and stores it in the cache.
-    The default of ``cache`` is the cache of the current user. For ``end`` and the errors, see
-    :func:`reference`.
+    The default of ``cache`` is the cache of the current user. :func:`reference` describes ``end`` and the
+    exceptions.
     """
 
     def compute() -> _Stored:
@@ -142,10 +141,10 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Compute the state of a scene at the end of its time span, and measure the uncertainty of this state.
 
-    The equation is solved twice, with different order and tolerance. The uncertainty is the difference of the
-    two final states. :class:`codegen.errors.SceneError` is raised if the equation cannot be solved, or if the
-    two final states do not agree to 28 digits. SceneError is also raised if ``time.monotonic()`` exceeds
-    ``end`` during the computation.
+    The equation is solved twice, with two extrapolation orders and two tolerances. The uncertainty is the
+    maximum norm of the difference of the two final states. ``end`` is the deadline of the computation on the
+    clock ``time.monotonic()``. Raises :class:`codegen.errors.SceneError` if the equation cannot be solved, if
+    the two final states do not agree to 28 digits, or if the deadline passes.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -161,11 +160,11 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Solve the equation of a scene once with step-size control.
+    """Solve the differential equation of a scene once with step-size control.
 
     The result contains the final state and the attribute ``kinks`` of :class:`Reference`. ``columns`` is the
-    number of columns of the extrapolation table. The tolerance is 10^``exponent``. SceneError is raised if
-    ``time.monotonic()`` exceeds ``finish`` during the run.
+    number of columns of the extrapolation table. The tolerance is 10^``exponent``. ``finish`` is the deadline
+    on the clock ``time.monotonic()``. Raises SceneError if the deadline passes.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -181,8 +180,8 @@ def _integrate(
 ) -> tuple[Vector, tuple[int, ...]]:
     """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
 
-    ``y`` is the initial state. ``columns`` is the number of columns of the extrapolation table. SceneError is
-    raised if ``time.monotonic()`` exceeds ``finish`` during the computation.
+    ``y`` is the initial state. ``columns`` is the number of columns of the extrapolation table. ``finish``
+    is the deadline on the clock ``time.monotonic()``. Raises SceneError if the deadline passes.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -266,8 +265,8 @@ def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step
     """Divide one step into ``n`` equal substeps, and return the state after the last substep.
 
     The first substep is an Euler step, and all later substeps use the explicit midpoint rule. ``slope`` is
-    the derivative at the state ``y``. ``n`` must be even, so that the error has an expansion in powers of the
-    squared step size.
+    the derivative at the state ``y``. ``n`` must be even. Otherwise the error has no expansion in powers of
+    the squared step size.
     """
     h = step / n
     twice = 2 * h

@@ -1,4 +1,4 @@
-"""The report: measures methods on scenes, and writes an HTML page for each scene and an overview page.
+"""The report: tests integrators on scenes, and writes an HTML page for each scene and an overview page.
 
 A file is written completely or not at all. Several scenes are measured at the same time, each in its own
 process.
@@ -90,7 +90,7 @@ class ScenePage:
 
     - ``summary``: the results for the overview page.
     - ``lines``: the lines for the terminal.
-    - ``json``: the data for the JSON of the report.
+    - ``json``: the results for the JSON output of the command ``report``.
     - ``held``: True if all measurements succeeded and passed their checks.
     """
 

@@ -43,9 +43,8 @@ class RunFailed(ArithmeticError):
 class Interpreted:
     """A runner that executes the optimised program of a step with the interpreter.
 
-    If ``digits`` is at most 16, the arithmetic uses doubles, and states are lists of floats. Otherwise it
-    uses :class:`~codegen.ir.ball_domain.BallDomain` with ``digits`` decimal digits, and states are lists of
-    mpmath numbers.
+    If ``digits`` is at most 16, the runner computes with doubles, and the final state contains floats.
+    Otherwise the runner computes with ``digits`` decimal digits, and the final state contains mpmath numbers.
     """
 
     compiled: Optimised
@@ -54,17 +53,17 @@ class Interpreted:
 
     @property
     def epsilon(self) -> float:
-        """The machine epsilon: 2^-52 for doubles, otherwise 10^(1 - digits)."""
+        """The machine epsilon: 2^-52 for doubles, otherwise 10^(1 - ``digits``)."""
         return 2.0**-52 if self.digits <= DOUBLE else 10.0 ** (1 - self.digits)
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. These steps take about ten seconds."""
+        """The largest number of steps in a convergence test. A run of this length takes about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
     def domain(self) -> Domain:
-        """The arithmetic of the states that :meth:`final` returns."""
+        """The arithmetic of the numbers that :meth:`final` returns."""
         return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
 
     @cached_property
@@ -73,7 +72,7 @@ class Interpreted:
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the state at the end of the time span, which is divided into ``steps`` equal steps.
+        """Return the state at the end of the time span after ``steps`` equal steps.
 
         Raises :class:`RunFailed` if a step fails.
         """
@@ -81,7 +80,7 @@ class Interpreted:
         h = (end - start) / steps if steps else end - start
         if self.digits <= DOUBLE:
             return self._run(FloatDomain(float(h)), steps)
-        # Arb balls are several times faster than mpmath numbers.
+        # BallDomain computes with Arb balls, which are several times faster than mpmath numbers.
         domain = BallDomain(h, self.digits)
         with domain.precision():
             state = self._run(domain, steps)
@@ -111,7 +110,7 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return a dictionary that maps the name of each component of a state to its coordinates.
+    """Return the coordinates of the components of a state. The keys are the names of the components.
 
     A component is, for example, a group element or a momentum. ``state`` lists the coordinates of all
     components.
@@ -137,7 +136,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. These steps take about one second."""
+        """The largest number of steps in a convergence test. A run of this length takes about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -152,10 +151,9 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same method whose module can also return the solutions of the implicit equations.
+        """A runner of the same method whose module also returns the solutions of the implicit equations.
 
-        Not every target can emit such a module. Therefore the target of the observed runner can differ from
-        ``self.target``.
+        Only some targets can emit such a module. Therefore the new runner can have another target.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 
@@ -167,8 +165,8 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
-        ``statistics`` records the number of iterations for the implicit equations. Raises :class:`RunFailed`
-        if a step fails.
+        ``statistics`` records the iterations that solve the implicit equations of the steps. Raises
+        :class:`RunFailed` if a step fails.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
@@ -179,18 +177,18 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""An object that solves one scene with one method.
+"""An object that solves the differential equation of a scene with a numerical method.
 
-Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_steps``, and the method
-``final``.
+Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_steps``, and the member
+function ``final``.
 """
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
     """Check that a target is known and can compute with ``digits`` decimal digits.
 
-    Raises :class:`codegen.errors.MethodError` if this is not the case. Only the interpreter computes with
-    more than :data:`DOUBLE` decimal digits.
+    Raises :class:`codegen.errors.MethodError` if a condition fails. Only the interpreter computes with more
+    than :data:`DOUBLE` decimal digits.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:

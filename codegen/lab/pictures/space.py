@@ -21,7 +21,7 @@ THIN: Looks = {"linewidth": 0.8, "marker": ""}
 
 
 def draw(figure: SpaceCurves, source: Source) -> Drawn:
-    """Return the picture of a figure. A black dot marks the start of the curves."""
+    """Return the picture of a figure. A black dot marks the start of the first curve."""
     looks, runs = styles(figure), figure.runs
     canvas = Canvas.of(1, height=4.4)
     axes, frame = canvas.panels[0], projection(*figure.direction)
@@ -49,7 +49,7 @@ def draw(figure: SpaceCurves, source: Source) -> Drawn:
 def _box(
     axes: Axes, frame: numpy.ndarray, low: numpy.ndarray, high: numpy.ndarray, names: tuple[str, str, str]
 ) -> None:
-    """Draw the edges of a box, and write the range of each coordinate beside one edge.
+    """Draw the edges of a box, and write the range of a coordinate beside one edge in its direction.
 
     ``low`` and ``high`` are opposite corners of the box. ``frame`` is the matrix of the projection, and
     ``names`` are the names of the coordinates.
@@ -66,8 +66,8 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # Of the four edges that are parallel to axis k, one edge gets the label. If the four edges are steep,
-        # this is the leftmost edge. Otherwise it is the lowest edge.
+        # Four edges are parallel to axis k. The label is written beside the leftmost edge if the edges are
+        # steep in the picture, and beside the lowest edge otherwise.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)

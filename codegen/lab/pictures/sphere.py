@@ -36,7 +36,7 @@ THIN: Looks = {"linewidth": 0.9, "marker": ""}
 
 
 def draw(figure: SphereCurves, source: Source) -> Drawn:
-    """Return the picture of a figure. A black dot marks the start of the curves."""
+    """Return the picture of a figure. A black dot marks the start of each curve."""
     runs, looks = figure.runs, styles(figure)
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=WIDE / 2)
     frame = projection(*figure.direction)
@@ -93,7 +93,7 @@ def _curve(
     looks: Looks,
     dots: bool = False,
 ) -> None:
-    """Draw a curve on the sphere. On the far half of the sphere, the curve is fainter.
+    """Draw a curve on the sphere. The part of the curve on the far half of the sphere is fainter.
 
     Each column of ``seen`` is a point of the curve, in the coordinates that :func:`projection` defines.
     """

@@ -1,8 +1,8 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the first quantity is also evaluated along the reference run. The result
-is the reference curve. If the attribute ``difference`` of the figure is True, the reference curve is
-subtracted from all quantities. Otherwise the reference curve is drawn as a separate line.
+If the figure has a reference run, the reference curve shows the first quantity along this run.
+If the attribute ``difference`` of the figure is True, the reference curve is subtracted from all quantities.
+Otherwise the reference curve is drawn as a separate line.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ONE, SEVERAL = 3.4, 1.7
-"""The height of a panel in inches. ONE applies to a picture with one panel, and SEVERAL to all others."""
+"""The height of a panel in inches. ONE applies to a single panel, and SEVERAL to two or more panels."""
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ARROWS, LEVELS = 15, 10
-"""The number of arrows along each axis of the plane, and the number of level lines."""
+"""The number of arrows along each axis, and the approximate number of levels of the level lines."""
 
 GRID = 61
 """The number of points along each axis at which the formula of the level lines is evaluated."""
@@ -56,7 +56,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
 
 
 def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
-    """Draw the level lines of a function and the arrows of a vector field, if the figure has them."""
+    """Draw the level lines of ``figure.levels`` and the arrows of ``figure.directions``, if present."""
     if figure.levels is not None:
         angles, states = _states(figure, numpy.linspace(-math.pi, math.pi, GRID))
         heights = formulas(source.problem, [figure.levels])(states, numpy.zeros(states.shape[1]))[0]
@@ -76,8 +76,7 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
     """Return the points of a grid in the plane of the two angles, and the states at these points.
 
-    The points are returned as two arrays, one for each angle. The states are returned as one array. Each row
-    of this array contains the values of one coordinate.
+    The points are returned as two arrays, one for each angle. The states are the columns of a third array.
     """
     import sympy
 
