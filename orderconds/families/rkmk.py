@@ -111,8 +111,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return independent conditions of the given order. Together with the conditions of lower order, the
         returned conditions imply all :meth:`conditions` of the given order.
 
-        Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation of
-        dexpinv adds one condition of order R + 3, where R is the number in the module docstring. A method
+        Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
+        of dexpinv adds one condition of order R + 3, where R is the number in the module docstring. A method
         with this truncation cannot satisfy all conditions up to order R + 3. Its order is at most R + 2.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
