@@ -44,7 +44,7 @@ class StraightLine:
         """Return the code as a Python function ``(y, t) -> tuple`` for one type of numbers.
 
         ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
-        functions of this type (:mod:`codegen.lab.number_functions`).
+        functions for numbers of this type (:mod:`codegen.lab.number_functions`).
         """
         body = [f"    {name} = {_multiplied(text)}" for name, text in self.lines]
         source = "\n".join(

@@ -35,15 +35,15 @@ MANY = 8
 class Effort:
     """The extent of the measurements on one scene.
 
-    - ``budget``: the CPU time in seconds that one run may take in the measurement ``cost``.
+    - ``budget``: the longest CPU time in seconds of one run in the comparison of CPU times.
     - ``peers``: the names of the peers (other integrators for comparison). Peers that are not installed are
       left out.
     - ``steps``: the number of steps of a long run.
     - ``back``: True to integrate back to the initial time after each long run.
     - ``rounding``: True to measure the growth of rounding errors.
     - ``stiff``: True to test stiff variants of the scene.
-    - ``endurance``: True to make runs of ten million steps.
-    - ``search``: the time in seconds of the search for the fastest methods of the library.
+    - ``endurance``: True to make runs of up to ten million steps.
+    - ``search``: the time in seconds of the search for the fastest methods for the scene.
     """
 
     budget: float
@@ -62,11 +62,10 @@ class Effort:
         is reduced:
 
         - ``search`` is multiplied by MANY / ``scenes``.
-        - If ``endurance`` is False, ``rounding`` becomes False.
+        - ``rounding`` becomes False, except in full reports (those with ``endurance``).
 
-        ``processes`` is the number of scenes that are measured at the same time. If ``processes`` is more
-        than 1, each search uses only one processor and is slower. Therefore ``search`` is multiplied by
-        ``processes``.
+        ``processes`` is the number of scenes that are measured at the same time. A search on one of several
+        processors is slower. Therefore ``search`` is multiplied by ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -210,12 +209,12 @@ class Subject:
         return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
-        """Return the command line that repeats the measurement named ``part`` for this page."""
+        """Return the command line that repeats the measurement named ``part`` for this subject."""
         words = ["orderconds report", bare(self.name), *self._methods()]
         return " ".join([*words, f"--only {part}", "-o DIR"])
 
     def bench_command(self) -> str:
-        """Return the command line that repeats the measurement of the CPU times on this page."""
+        """Return the command line that repeats the measurement of the CPU times for this subject."""
         words = ["orderconds bench", bare(self.name), *self._methods()]
         words += [f"--adaptive {quoted(bare(m.label))}" for m in self.adaptive]
         words += [f"-a {peer}" for peer in self.peers]
@@ -236,9 +235,9 @@ def subject(
     """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
     ``methods`` run with equal steps, and ``adaptive`` are methods that run with step-size control. Peers are
-    other integrators for comparison. By default, the methods are the default methods of the report, and the
-    peers are the installed peers of ``effort.peers``. Unknown names raise the errors of
-    :func:`codegen.method.parse` and :func:`codegen.lab.peers.find`.
+    other integrators for comparison. If no methods are given, the default methods of the report are used. If
+    no peers are given, the installed peers of ``effort.peers`` are used. For unknown names,
+    :func:`codegen.method.parse` and :func:`codegen.lab.peers.find` raise errors.
     """
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)

@@ -1,10 +1,11 @@
 """Measures the CPU time of a call in one process.
 
 A batch is a number of repeated calls, which are timed together. The time of a batch divided by its number of
-calls is a measured time of one call. Several batches are timed. The least measured time is the result.
-Other processes can only increase a measured time, so the least time is the best estimate. A call from Python
-takes some time before the first step. A run of zero steps measures this overhead. The overhead is subtracted,
-so that short and long runs can be compared.
+calls is a measured time of one call. Several batches are timed, and the least measured time is the result.
+It is the best estimate, because other processes never decrease a measured time.
+
+The call of an integrator from Python has an overhead: the time before its first step. A run of zero steps
+measures the overhead. Short and long runs can be compared after the overhead is subtracted.
 
 Emitted methods and other integrators are compared by the times that :func:`span_times` returns.
 """
@@ -28,15 +29,15 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for short runs. A run is short if it takes less than RESOLVED seconds.
 
-A short run is timed over several time spans of the scene (:func:`spans`), with at most LEAST_STEPS steps in
-total. RESOLVED is about a hundred times the overhead of a call.
+A short run is repeated over further time spans of the scene (:func:`spans`), as long as the total number of
+steps is at most LEAST_STEPS. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
 """Limits for the number of batches that are timed.
 
-Further batches are timed until the times of the two fastest batches differ by at most the fraction CONFIRMED,
-or until MOST batches have been timed.
+Further batches are timed until the second least time is at most (1 + CONFIRMED) times the least time, or
+until MOST batches have been timed.
 """
 
 SHORT = 1e-3
@@ -56,9 +57,9 @@ AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The smallest fraction of a measured time that remains after the overhead is subtracted.
+"""The time of a run without the overhead is at least LEAST_SHARE times the measured time.
 
-If less would remain, the result is LEAST_SHARE times the measured time. Therefore no run has the time zero.
+This bound avoids times that are zero or negative.
 """
 
 
@@ -79,9 +80,11 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return CPU times of one call in seconds, one for each batch of calls, in increasing order.
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
-    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. Otherwise, at least ``batches``
-    batches are timed. Their number grows until the two least times differ by at most the fraction
-    :data:`CONFIRMED`, or until :data:`MOST` batches have been timed.
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed.
+
+    If the first batch is shorter, ``batches`` batches are timed. Further batches are timed until the second
+    least time is at most (1 + :data:`CONFIRMED`) times the least time, or until there are :data:`MOST`
+    batches.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -100,11 +103,11 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return the number of time spans over which a run is timed.
+    """Return the number of time spans n such that the time of ``run(n)`` can be measured accurately.
 
-    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number n begins at 1. It
-    is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. The doubling ends earlier if the next
-    run would have more than :data:`LEAST_STEPS` steps or would fail.
+    ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. The number n
+    begins at 1. It is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. If ``run(2 * n)``
+    would have more than :data:`LEAST_STEPS` steps or would fail, n is not doubled.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -117,7 +120,7 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
 
 def _least(run: Callable[[int], object], count: int) -> float:
-    # The call is timed three times and the least time is used, because the first call of a module is slow.
+    # The least of three times is used, because the first call is slow.
     return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 
@@ -125,16 +128,15 @@ def _least(run: Callable[[int], object], count: int) -> float:
 class Overhead:
     """The overhead of a call: the CPU time of a call that makes no step.
 
-    The function ``idle`` makes a call without steps. If ``idle`` is None, the overhead is zero. All runs of
-    one module in this process have the same overhead. The overhead is measured when it is first needed. If
-    the time of a short run is too uncertain, :func:`net_times` measures the overhead again.
+    The function ``idle`` makes a call without steps. If ``idle`` is None, the overhead is zero. If the time
+    of a short run is too uncertain, :func:`net_times` measures the overhead again.
     """
 
     idle: Callable[[], object] | None
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """The CPU times of ``idle`` in seconds, one for each batch of calls, in increasing order."""
+        """CPU times of one call of ``idle`` in seconds, one for each batch of calls, in increasing order."""
         return (0.0,) if self.idle is None else samples(self.idle)
 
     @property
@@ -174,8 +176,8 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
     ``sample()`` times the run and returns a list of times that include the overhead. A run is short if it
     takes less than :data:`SHORT` seconds. If the relative uncertainty of a short run exceeds
-    :data:`RESOLUTION`, the run and the overhead are measured again, at most :data:`AGAIN` times. If the
-    overhead is almost as long as a measured time, the fraction :data:`LEAST_SHARE` of this time is returned.
+    :data:`RESOLUTION`, the run and the overhead are measured again, at most :data:`AGAIN` times. Each
+    returned time is at least :data:`LEAST_SHARE` times the measured time.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -200,9 +202,9 @@ def spread(times: Sequence[float]) -> float | None:
 
 
 def _batch(call: Callable[[], object], calls: int) -> float:
-    # If the CPU time of the process is limited (``ulimit -t``), Linux updates the CPU clock of the process
-    # only every few milliseconds. The CPU clock of the thread is always exact, but does not include other
-    # threads. The larger of the two measured times is used.
+    # If the CPU time of the process is limited (``ulimit -t``), its CPU clock lags by a few milliseconds.
+    # The CPU clock of the thread is accurate, but omits other threads. The larger of the two measured times
+    # avoids both problems.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()
@@ -213,8 +215,7 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
     """Return the CPU time of a run with n steps, for each n of ``steps``.
 
-    The time of ``run(0)`` is subtracted from the time of ``run(n)``. A negative difference is replaced by
-    zero.
+    The time of ``run(0)`` is subtracted from the time of ``run(n)``. Negative differences become zero.
     """
     overhead = cost(lambda: run(0), batch)
 

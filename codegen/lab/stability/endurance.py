@@ -1,4 +1,4 @@
-"""Runs of many steps: ten million steps forward, and a hundred thousand steps forward and back."""
+"""Runs of many steps: up to ten million steps forward, and up to a hundred thousand forward and back."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ BACK = 100_000
 SECONDS = 3.0
 """The approximate limit, in seconds, on the CPU time of a run in one direction.
 
-A run forward has MANY steps. A run forward and back has BACK steps in each direction. If these steps would
-take longer than the limit, their number is reduced.
+A run forward has MANY steps. A run forward and back has BACK steps in each direction. If the steps in one
+direction would take longer than the limit, the number of steps is reduced.
 """
 
 TRIAL = 1000
@@ -26,21 +26,20 @@ TRIAL = 1000
 
 @dataclass(frozen=True)
 class Endurance:
-    """The result of a long run. ``steps`` is the number of steps.
+    """The result of a long run: a run forward, or a run forward followed by a run back to the initial time.
 
-    The run is either a run forward, or a run forward followed by a run back to the initial time.
+    - ``steps``: the number of steps in each direction. If a step failed, ``steps`` is the number of steps
+      completed before in the same direction.
+    - ``defect``: the largest absolute residual of the equations of the manifold after a run forward. It is
+      infinite if the final state is not finite. It is None if the final state is finite and the manifold is a
+      vector space.
+    - ``returned``: the distance of the final state from the initial state after a run forward and back.
+    - ``failure``: the error message of the integrator if a step failed.
 
-    - ``defect`` is the error of a run forward: the largest absolute residual of the equations of the manifold
-      at the final state. It is infinite if the final state is not finite. Otherwise it is None if the
-      manifold is a vector space.
-    - ``returned`` is the error of a run forward and back: the distance of the final state from the initial
-      state.
-    - ``failure`` is the status message if a step failed.
-
-    A run that stopped with a status message passes the test, because the failure was reported. A complete run
-    forward passes if its final state is finite and ``defect`` is at most the size of rounding errors. A
-    complete run forward and back passes if ``returned`` is finite. A large value of ``returned`` is accepted,
-    because only symmetric methods return to the initial state.
+    If a step fails, the run passes the test, because the integrator reported the failure. A complete run
+    forward passes if ``defect`` is None, or at most 64 ``steps`` 2^-53 (a bound for rounding errors). A
+    complete run forward and back passes if ``returned`` is finite. A large ``returned`` is accepted, because
+    only symmetric methods return to the initial state.
     """
 
     name: str
@@ -70,9 +69,8 @@ class Endurance:
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
     """Make a run forward, and a run forward and back.
 
-    The step size is a hundredth of the time span. The runs may continue beyond the end of the time span.
-    Before these runs, a trial run of :data:`TRIAL` steps is made. If the trial run fails, it gives the only
-    result.
+    The step size is a hundredth of the time span, so long runs end far beyond the time span. A trial run of
+    :data:`TRIAL` steps measures the time of a step. If the trial run fails, its result is the only result.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100

@@ -1,9 +1,9 @@
 """Single steps with extreme input: the result of emitted code is compared with an exact result.
 
-The interpreter computes the exact result with at least 60 digits. The interpreter also computes several
-probes. A probe repeats the step with simulated rounding errors of a double in the input and in the result of
-every operation. The differences between the probes and the exact result show how much rounding can change
-the result. The input *determines* the digits that rounding does not change.
+The interpreter (:mod:`codegen.ir.interpret`) makes the same step with at least 60 digits. Its result is the
+exact result. Several probes repeat the step. In a probe, the interpreter adds random rounding errors of a
+double to the input and to the result of every operation. The differences between the probes and the exact
+result show how much rounding can change the result.
 
 There are three verdicts:
 
@@ -14,9 +14,9 @@ There are three verdicts:
 
 Correct digits are counted separately for each component of the state, such as a group element or a momentum.
 
-The equations of an implicit method can have several solutions. The interpreter first uses fixed-point
-iteration. If this iteration does not converge, the interpreter uses Newton's method. The solution of the
-emitted code is the starting value of Newton's method.
+The interpreter solves the equations of an implicit method by fixed-point iteration. If the iteration does not
+converge, it uses Newton's method. The equations can have several solutions. Therefore Newton's method starts
+from the solution of the emitted code.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ TINY = 2.0**-1022
 """The smallest normal double. A result with an absolute value below TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""Rounding can cause an error of up to about ROUNDINGS times the largest error of a probe.
+"""If an error is above about ROUNDINGS times the largest error of a probe, rounding cannot cause it.
 
 A probe repeats the step with many digits and with simulated rounding errors.
 """
@@ -154,7 +154,7 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the first index of each component of the state, and the last index of the state."""
+    """Return the index of the first number of each component of the state, and the last index."""
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -165,8 +165,8 @@ def _firsts(compiled: Compiled) -> list[int]:
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
     """Return a copy of ``state`` in which some components are multiplied by ``scale``.
 
-    Momenta and points on which rotations act are multiplied. If the group is abelian, all components are
-    multiplied. If no component is multiplied or a number overflows, the result is None.
+    All momenta are multiplied. Points are multiplied if the group acts by rotations. If the group is abelian,
+    all components are multiplied. If no component is multiplied or a number overflows, the result is None.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -181,9 +181,9 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return the norm of the Lie algebra element that moves the group element or point of the state.
+    """Return the norm of the value of the vector field in the Lie algebra at ``state``.
 
-    For groups of rotations, this norm is the angle of rotation per unit of time.
+    For groups of rotations, the norm is the angle of rotation per unit of time.
     """
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
@@ -245,11 +245,11 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and a list with the state after each probe.
+    """Return the exact state after the step, and the states after the probes.
 
-    A probe repeats the step with simulated rounding errors. All numbers have at least 60 digits. If the step
-    size is above 1, the equations lose digits by cancellation. Newton's method and the probes therefore use
-    more than 60 digits for long steps.
+    A probe repeats the step with simulated rounding errors. All numbers have at least 60 digits. In implicit
+    equations, long steps cause cancellation. If the step size is above 1, Newton's method and the probes
+    therefore use more digits.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -295,11 +295,10 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random. If an operation is repeated in a step, its error keeps its
-    sign. The equations of an implicit method are therefore the same in each iteration. Two rounding errors
-    are added to the right-hand side r of each implicit equation. The first error is proportional to r. Where
-    r is zero, the first error vanishes. The second error is proportional to the right-hand side of another
-    equation.
+    The signs of the errors are random. If an operation is repeated in a step, its error keeps its sign.
+    Otherwise the equations of an implicit method would change in each iteration. The right-hand side r of an
+    implicit equation gets two rounding errors. The first error is proportional to r, so it vanishes if r is
+    zero. The second error is proportional to the right-hand side of another equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -312,7 +311,7 @@ class Rounding(BallDomain):
     def computed(self, name: str, value: Value) -> Value:
         """Return ``value``, the result of an operation, with one rounding error in each component.
 
-        ``name`` is the name of the result in the program of the step.
+        ``name`` is the variable to which the step assigns the result. It determines the signs of the errors.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
@@ -324,7 +323,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the right-hand sides ``images`` of implicit equations with simulated rounding errors."""
+        """Return the right-hand sides ``images`` of implicit equations, changed by rounding errors."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -332,10 +331,7 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the increment of ``x`` for a difference quotient: 2^-40 max(1, |x|).
-
-        The difference quotient is accurate enough for Newton's method.
-        """
+        """Return the increment of ``x`` for a difference quotient in Newton's method: 2^-40 max(1, |x|)."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
@@ -351,11 +347,11 @@ def precise_step(
     probe: int | None = None,
     digits: int = DIGITS,
 ) -> list[Scalar]:
-    """Return the state after one step of the interpreted program, as mpmath numbers with many digits.
+    """Return the state after one step made by the interpreter, as mpmath numbers with many digits.
 
-    - ``near``: the starting values of Newton's method, one list for each system of implicit equations. The
-      solutions replace the starting values in place.
-    - ``limit``: the largest number of iterations for implicit equations.
+    - ``near``: the starting values of Newton's method, one list for each system of implicit equations. In
+      ``near``, the solutions replace the starting values.
+    - ``limit``: the largest number of iterations for each system of implicit equations.
     - ``newton``: False to use only fixed-point iteration.
     - ``probe``: the seed of the random rounding errors that are added to the result of each operation, or
       None to add no errors.
@@ -386,7 +382,7 @@ def precise_step(
 @cache
 def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
     """Return an mpmath context that computes with ``digits`` decimal digits."""
-    # The global context of mpmath is not changed, because other code of the user may use it.
+    # The global context of mpmath is not changed, because other code of the user can depend on it.
     import mpmath
 
     context = mpmath.mp.clone()

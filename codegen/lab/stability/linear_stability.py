@@ -5,8 +5,8 @@ If a Runge-Kutta method solves y' = lambda y, each step of size h multiplies y b
 is the stability function of the method.
 
 A Lie group method for y' = f(y).y, where f(y) is in the Lie algebra, multiplies the state by exponentials of
-elements of the Lie algebra. If f is constant, steps of every length are therefore exact. The
-stability region of the tableau limits the step size only if f(y) varies along the solution.
+elements of the Lie algebra. If f is constant, a step of arbitrary size h is therefore exact. If f(y) varies
+along the solution, the stability intervals of the tableau limit the step size.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ class Region:
     """The stability function of a method, and its stability intervals.
 
     ``label`` is the name of the method, and ``value`` is the stability function R. A stability interval
-    begins at zero. All points z of the interval satisfy |R(z)| <= 1. ``real`` is the length of the interval
-    on the negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. A
-    length above :data:`FARTHEST` is replaced by infinity.
+    begins at zero. All its points z satisfy |R(z)| <= 1. ``real`` is the length of the interval on the
+    negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. If a
+    length exceeds :data:`FARTHEST`, it is replaced by infinity.
     """
 
     label: str
@@ -62,8 +62,8 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the stability function and the stability intervals of the tableau of a method.
 
-    The tableau is used as a Runge-Kutta method on R^n. If the stability function is not known,
-    the result is None. Examples are splitting methods and tableaux with inexact coefficients.
+    The tableau is used as a Runge-Kutta method on R^n. The result is None if the stability function is not
+    known, for example for splitting methods and tableaux with inexact coefficients.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:

@@ -3,8 +3,8 @@
 A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
 span. In each further run, the step size h is half that of the run before. A run is in the stiff regime if the
 product of h and the rate is above one. The slope between two successive runs is the change of log(error)
-divided by the change of log(h). The median of the slopes in the stiff regime is compared with the order that
-the method should have.
+divided by the change of log(h). The median of the slopes in the stiff regime is the observed order. It is
+compared with the order computed from the order conditions.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ The error is None if the run failed. The reason is '' if the run succeeded.
 """
 
 CLOSE = 0.1
-"""The observed order is computed from runs with errors less than CLOSE times the size of the state."""
+"""Runs with errors of at least CLOSE max(1, norm of the exact final state) do not count as accurate."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class OrderReduction:
     """The results of the runs of a method on a stiff variant of a scene.
 
     - ``variant``: the name of the stiff variant.
-    - ``rate``: the rate of the fast motion.
+    - ``rate``: the rate of the fast motion, per unit of time.
     - ``stated``: the order computed from the order conditions.
     - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
     - ``observed``: the order observed with steps longer than 1/``rate``. It is None if too few of these runs
