@@ -30,8 +30,7 @@ def of_scalars(source: object) -> Functions:
     """Return the functions that formulas may call, for one type of numbers.
 
     ``source`` is a module or class with the functions of these numbers, such as ``sin`` and ``sqrt``. For
-    floats, ``source`` is the module ``math``. Case distinctions and tables compare numbers. The numbers must
-    therefore have the operators ``<``, ``<=`` and ``>``.
+    floats, ``source`` is the module ``math``. The numbers must have the operators ``<``, ``<=`` and ``>``.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -67,10 +66,11 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function with the given name. Raise ArithmeticError for a name that is not in ``functions``.
+    """Return the function of ``functions`` with the name ``name``.
 
-    ``name`` can also be a table, that is, a piecewise polynomial. In this case, return a function that
-    evaluates the table. ``constant`` converts the exact coefficients of the table to the number type.
+    If ``name`` is a piecewise polynomial and not a string, return a function that evaluates the polynomial.
+    ``constant`` converts the exact coefficients of the polynomial to the number type. Raises ArithmeticError
+    if ``functions`` has no such function.
     """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:

@@ -26,7 +26,7 @@ OVERVIEW = (
 NAMED = 2
 """The largest number of methods that the verdict names.
 
-If more methods share the longest usable step, the verdict states only their number.
+If more methods share the largest usable step, the verdict states only their number.
 """
 
 Result = MethodResults[Stability]
@@ -81,9 +81,9 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence about wrong results for extreme input, and about the longest usable step.
+        """Return a sentence about wrong results for extreme input, and about the largest usable step.
 
-        The sentence names the methods with the longest usable step. If there are more than :data:`NAMED`
+        The sentence names the methods with the largest usable step. If there are more than :data:`NAMED`
         such methods, the sentence states only their number.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
@@ -102,7 +102,7 @@ class StabilityTests(Measurement[Result]):
             longest = max(limits.values())
             best = [method for method, h in limits.items() if h == longest]
             who = enumeration(best) if len(best) <= NAMED else f"{len(best)} of {len(limits)} methods"
-            parts.append(f"the longest usable step is {longest:.3g}, with {who}")
+            parts.append(f"the largest usable step is {longest:.3g} ({who})")
         sentence = "; ".join(parts)
         return f"{sentence[0].upper()}{sentence[1:]}." if parts else ""
 
@@ -206,13 +206,13 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return the number of steps of a long run and the error of its final state, as text.
+    """Return a text with the number of steps of a long run and the distances that were measured.
 
     If a step failed, return the status message of this step.
     """
     if run.failure:
         return run.failure
     parts = [f"{run.steps} steps"]
-    parts += [] if run.defect is None else [f"distance {scientific(run.defect)} from the manifold"]
+    parts += [] if run.defect is None else [f"residual {scientific(run.defect)} of the manifold equations"]
     parts += [] if run.returned is None else [f"distance {scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else ", which is more than rounding errors permit")
+    return ", ".join(parts) + ("" if run.held else "; rounding errors do not explain this result")

@@ -27,7 +27,8 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-Such an order comes from the user or from the tableau file. Runs with very short steps must confirm the order.
+Such an order comes from the user or from the tableau file. It is also compared with the order measured with
+very short steps.
 """
 
 FEWEST = 4
@@ -160,7 +161,7 @@ class Convergence:
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
             return "rounding dominates before the slopes settle; use --target interpreter --digits 40"
         if len(self.refinement.clean) < FEWEST:
-            return f"only {len(self.refinement.clean)} of {FEWEST} required runs are usable; try other steps"
+            return f"{len(self.refinement.clean)} runs are usable, but {FEWEST} are required; try other steps"
         return "the slopes have not settled; try finer steps"
 
 
@@ -267,5 +268,5 @@ def _rung(
     if error <= CLEAR * rounding(steps, runner.epsilon, size):
         return Run(steps, h, error, ROUNDING)
     if error <= CLEAR * exact.uncertainty:
-        return Run(steps, h, error, "the error is below the accuracy of the reference solution")
+        return Run(steps, h, error, "the reference solution is not accurate enough to measure the error")
     return Run(steps, h, error)

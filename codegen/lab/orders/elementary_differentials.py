@@ -30,8 +30,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 class RingDomain(Domain):
     """Arithmetic in an exact ring, for scenes that are polynomial in their coordinates.
 
-    Every domain needs a step size ``h``. Here it is 1. This value has no effect, because elementary
-    differentials do not depend on the step size.
+    The class :class:`codegen.ir.domain.Domain` requires a step size ``h``. Here ``h`` is 1. This value has no
+    effect, because elementary differentials do not depend on the step size.
     """
 
     def __init__(self, ring: Ring) -> None:
@@ -88,8 +88,8 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is an element of the Lie algebra. It is a derivative of f at the initial point. For each branch b
-        of t, f is differentiated once along the vector field that maps y to F(b).y.
+        F(t) is an element of the Lie algebra. It is a derivative of the field f at the initial point. For
+        each branch b of t, the field is differentiated once along the vector field that maps y to F(b).y.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -98,10 +98,10 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return a derivative of the coordinates of a point, evaluated at the initial point.
+        """Return the elementary differential of an ordered forest.
 
-        For each tree t of the forest, the coordinates are differentiated once along the vector field that
-        maps y to F(t).y.
+        It is a derivative of the coordinates of y at the initial point. For each tree t of the forest, the
+        coordinates are differentiated once along the vector field that maps y to F(t).y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -119,13 +119,14 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, for trees with directed edges.
 
-    The elementary differential of a tree is a pair (xi, nu). Let K be the derivative of the Hamiltonian
-    H(q, mu) along one direction for each branch at the root. Then xi is the derivative of K with respect to
-    mu, and -nu is the derivative of K with respect to q.
+    The elementary differential of a tree is a pair (xi, nu). Each branch at the root is a tree and has its
+    own pair (xi_b, nu_b). The Hamiltonian H(q, mu) is differentiated once for each branch:
 
-    Each branch is a tree and has its own pair (xi, nu). If the branch has kind 0, the direction is xi, and H
-    is differentiated with respect to q. If the branch has kind 1, the direction is nu, and H is
-    differentiated with respect to mu. The module :mod:`orderconds.trees.directed` defines the kinds.
+    - If the branch has kind 0, H is differentiated with respect to q in the direction xi_b.
+    - If the branch has kind 1, H is differentiated with respect to mu in the direction nu_b.
+
+    Let K be the result. Then xi is the derivative of K with respect to mu, and -nu is the derivative of K
+    with respect to q. The module :mod:`orderconds.trees.directed` defines the kinds.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -135,10 +136,7 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return the elementary differential of a tree: the numbers of xi, followed by the numbers of nu.
-
-        The docstring of the class defines xi and nu.
-        """
+        """Return the pair (xi, nu) of a tree: the components of xi, followed by the components of nu."""
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
             for kind, child in directed_branches(tree):
@@ -155,8 +153,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    An elementary differential is a velocity in the Lie algebra, or a covector in the dual of the Lie algebra.
-    Matrices represent the group elements. If the group is R^n, these are the matrices of translations.
+    The module :mod:`orderconds.series.action_trees` defines the trees. The elementary differential of a tree
+    is an element of the Lie algebra or of its dual space. Group elements are represented by matrices.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

@@ -6,8 +6,8 @@ h^(p+1) is the first coefficient that is not zero. Here h is the step size.
 
 The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
 this ring are replaced by nearby rational numbers. The new initial point is in general not on the manifold.
-This does not matter, because the equations, the group action and the order conditions are also valid off the
-manifold.
+The computed order is valid nevertheless, because the equations, the group action and the order conditions are
+also valid off the manifold.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from orderconds.errors import InputError
 from orderconds.ring.protocol import Ring
 
 DENOMINATOR = 64
-"""The largest denominator of the rational numbers that replace initial coordinates."""
+"""The largest denominator of the rational initial coordinates that :func:`with_exact_start` chooses."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The object contains no orders: the entries ``stated_order`` and ``order`` are None.
+        The entries ``stated_order`` and ``order`` are None.
         """
         return {
             "scene": self.scene,
@@ -167,7 +167,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         raise SceneError(
             f"the local error cannot be computed exactly: {reason}",
             where=scene.name,
-            expected="a scene whose field and flows are rational functions of the coordinates",
+            expected="a scene whose formulas are rational functions of the coordinates",
             hint="use orderconds converge, which estimates the order from slopes",
         ) from reason
     power = min(int(x.ring.valuation(x)) for x in error)

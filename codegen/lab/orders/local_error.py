@@ -39,8 +39,7 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
     Each coordinate is a power series in the step size h. The series end at h^``order``, and their
     coefficients are in ``ring``. ``scene`` is the problem for which the program was generated. Raises
-    ArithmeticError if the field of the scene is not rational in the coordinates, or if the initial state is
-    not in ``ring``.
+    ArithmeticError if the coefficients cannot be computed exactly, for example if the field calls ``sqrt``.
     """
     domain = SeriesDomain(ring, order)
     inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
@@ -192,7 +191,7 @@ def _action(scene: Problem, method: Method, power: int) -> Vector:
 
     The coefficient is a sum over words. A word w is a sequence of trees. Let d(w) be the coefficient of w in
     the series of the numerical solution, minus the coefficient of w in the series of the exact solution. The
-    summand of w is d(w) times a vector, which does not depend on the method.
+    summand of w is d(w) times a vector that depends only on w and the scene.
     """
     ring = method.ring
     family = family_of(method)

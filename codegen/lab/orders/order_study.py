@@ -23,7 +23,7 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The smallest number of steps for a comparison of the targets (:func:`largest_difference`)."""
+"""Final states of runs with fewer steps are not compared (:func:`largest_difference`)."""
 
 MOST_TIMED = 2560
 """The number of steps of the longest run whose CPU time is measured."""
@@ -36,9 +36,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target, such as C or Python.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference of a coordinate between the final state of the first target and the
-      final states of the other targets and of the interpreter (:func:`largest_difference`). If the final
-      states could not be compared, ``spread`` is None.
+    - ``spread``: the largest difference in a coordinate of the final state (:func:`largest_difference`). The
+      first target is compared with each other target and with the interpreter. If the final states could not
+      be compared, ``spread`` is None.
     - ``artifact``: the emitted files for the default target.
     """
 

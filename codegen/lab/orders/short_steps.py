@@ -3,7 +3,7 @@
 A small parameter of the scene can hide the leading term of the error. For example, let the error of a run be
 e h^p + h^(p+1), where e is the parameter and h is the step size. If h is much larger than e, the observed
 order is p + 1 and not p. If h is much smaller than e, the first term dominates, and the observed order is p.
-With steps as short as this, the error is tiny. Therefore the arithmetic has 100 digits.
+The error of such short steps is tiny. Therefore the steps are computed with 100 decimal digits.
 
 No reference solution is needed. Let the error of one step of size h be C h^(p+1) to leading order. The error
 of two steps of size h/2 is then 2 C (h/2)^(p+1). The difference between the two errors is proportional to
@@ -26,9 +26,10 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""Determines the shortest step size h by the equation (h/T)^(p+2) = 10^-SMALLEST.
+"""The shortest step size h satisfies (h/T)^(p+2) = 10^-SMALLEST.
 
-Here p is the expected order, and T is the length of the time span.
+Here p is the expected order, and T is the length of the time span. Numbers of the size (h/T)^(p+2) are then
+much larger than the rounding errors of arithmetic with 100 digits.
 """
 
 STEPS, RATIO = 3, 8

@@ -6,10 +6,10 @@ small to be measured. The excluded runs divide the sequence of runs into section
 used.
 
 Let p be the order of the method, and let h be the step size. For a smooth problem, the difference between a
-slope and p is approximately proportional to h. Let d be this difference for one slope. If the previous step
-size was r times as large, the previous difference was about r d. Therefore the slope has changed by about
-(r - 1) d. The change of the slope, divided by r - 1, is an estimate of d. The slopes have *settled* if this
-estimate is at most :data:`SETTLED` for each of the last two slopes.
+slope and p is approximately proportional to h. Let d be this difference for one slope. If the step sizes of
+the preceding slope are r times as large, the difference between the preceding slope and p is about r d. The
+two slopes then differ by about (r - 1) d. Therefore their difference, divided by r - 1, is an estimate of d.
+The slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
 
 The last slope is compared with the stated order. The two numbers may differ by at most :data:`TOLERANCE`.
 Therefore a method fails if its order is lower or higher than stated.
@@ -28,8 +28,9 @@ CLEAR = 100.0
 """A run is used only if its error is larger than two bounds.
 
 The first bound is CLEAR times the estimated rounding error of the run. The second bound is CLEAR times the
-uncertainty of the reference solution. Each of these two sources then changes the error by less than 1 %. If
-the step sizes of two runs differ by a factor of 2, each source changes the slope by less than 0.03.
+uncertainty of the reference solution. Rounding then changes the error of the run by less than 1 %, and so
+does the uncertainty of the reference solution. If the step sizes of two runs differ by a factor of 2, each of
+the two changes the slope by less than 0.03.
 """
 
 ZERO = 0.5
@@ -43,7 +44,7 @@ FIRST = 5
 """The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of some runs that :func:`refine` adds if the slopes have not settled."""
+"""The numbers of steps of the additional runs with long steps (:func:`refine`)."""
 
 
 @dataclass(frozen=True)
@@ -92,11 +93,11 @@ class Refinement:
 
     @property
     def settled(self) -> bool:
-        """True if the last two slopes are close to the limit of the slopes for short steps.
+        """True if the last two slopes are close to the limit of the slopes as the step size tends to 0.
 
-        The distance of each of the two slopes from the limit is estimated, because the limit is not known.
-        Each estimate must be at most :data:`SETTLED`. The docstring of :mod:`codegen.lab.orders.step_sizes`
-        derives the estimate.
+        The limit is not known. Therefore the distance of a slope from the limit is estimated
+        (:mod:`codegen.lab.orders.step_sizes`). For both slopes, the estimated distance must be at most
+        :data:`SETTLED`.
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
@@ -110,15 +111,15 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). Here
-        a number equals ``stated`` if it differs from ``stated`` by at most :data:`TOLERANCE`. Otherwise the
-        number is above or below ``stated``.
+        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). A
+        number counts as equal to ``stated`` if the difference is at most :data:`TOLERANCE`. If the difference
+        is larger, the number is above or below ``stated``.
 
         If there is no slope, the verdict is ``undecided``.
 
         If the slopes have settled (:attr:`settled`), the first rule that applies gives the verdict:
 
-        - If s is larger than :data:`ZERO` and below ``stated``, the verdict is ``fails``.
+        - If s is below ``stated``, the verdict is ``fails``. If s is at most :data:`ZERO`, skip this rule.
         - If p equals ``stated``, the verdict is ``holds``.
         - If s equals ``stated`` and p is above ``stated``, the verdict is ``holds``.
         - If s equals ``stated`` and p is below ``stated``, the verdict is ``undecided``.
@@ -162,12 +163,13 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. After a usable run, the function
-    stops at the first run whose error is too small to be measured. If ``to_rounding`` is False, the function
-    stops as soon as the slopes have settled.
+    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. If ``to_rounding`` is False, the
+    function stops as soon as the slopes have settled. If at least one run is usable, the function also stops
+    when the error of a run is too small to be measured.
 
-    If the slopes have not settled and the last run is excluded, the function adds runs. Some of the added
-    runs have fewer than N steps. The other added runs have numbers of steps between N, 2 N, 4 N, ....
+    The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
+    For each usable run with n steps, it adds runs with 6/5 n and 7/5 n steps. It also adds runs with fewer
+    than N steps (:data:`LONGER`).
     """
     runs: list[Run] = []
     steps = FIRST
