@@ -46,13 +46,19 @@ def scientific(x: float, digits: int = 2) -> str:
 
     >>> scientific(8.86e-35), scientific(0.0), scientific(-0.12345, 4), scientific(float("inf"))
     ('8.9 · 10⁻³⁵', '0', '−0.1235', '∞')
+    >>> scientific(150.0), scientific(9999.0), scientific(-0.000996, 2)
+    ('150', '1.0 · 10⁴', '−0.001')
     """
     if not math.isfinite(x):
         return "–" if math.isnan(x) else "∞" if x > 0 else "−∞"
-    if x == 0 or 1e-3 <= abs(x) < 1e4:
-        return f"{x:.{digits}g}".replace("-", "−")
-    mantissa, exponent = f"{x:.{digits - 1}e}".split("e")
-    return f"{mantissa.replace('-', '−')} · 10{superscript(int(exponent))}"
+    mantissa, exponent = f"{x:.{digits - 1}e}".replace("-", "−", 1 if x < 0 else 0).split("e")
+    power = int(exponent)
+    if x and not -3 <= power < 4:
+        return f"{mantissa} · 10{superscript(power)}"
+    # The number is rounded first, because rounding may change the power of ten.
+    rounded = float(mantissa.replace("−", "-")) * 10.0**power
+    text = f"{rounded:.{max(0, digits - 1 - power)}f}".replace("-", "−")
+    return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def seconds(x: float) -> str:
