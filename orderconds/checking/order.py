@@ -190,9 +190,9 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """A list with the largest absolute residual of each batch of conditions.
+    """A list with the largest absolute residual of each batch of conditions up to the computed order.
 
-    Batches with a failing condition are omitted. If the coefficients are not doubles, ``sizes`` is None.
+    If the coefficients are not doubles, ``sizes`` is None.
     """
 
     def run(
@@ -205,7 +205,11 @@ class _Search:
         expected = limit if claimed is None else claimed
         certificate = "exact"
         for n in range(1, limit + 1):
+            known = len(self.sizes or ())
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
+            if self.sizes and (failing or not verdicts.isdisjoint((STOPPED, "undecided"))):
+                # The residuals of order n do not count, because the method does not have this order.
+                del self.sizes[known:]
             if not failing and STOPPED in verdicts:
                 done = self.meter.total
                 return FamilyOrder(label, n - 1, certificate, True, (), None, claimed, required, n - 1, done)
