@@ -77,7 +77,7 @@ def test_a_correct_tableau_has_its_order_to_double_precision_and_no_proof(name: 
 
 
 def test_the_largest_residual_is_that_of_the_orders_that_are_reached() -> None:
-    # With a tolerance of 1e-4, order 3 is undecided. Its largest residual is 3.3e-5, that of order 2 is 1.7e-5.
+    # With a tolerance of 1e-4, order 3 is undecided. Its largest residual is 3.3e-5.
     method = of_doubles([[0, 0, 0], [0.5, 0, 0], [-1, 2 + 1e-4, 0]], [1 / 6, 2 / 3, 1 / 6])
     (result,) = check(method, tolerance=1e12).orders
     assert (result.order, result.decided) == (2, False)
