@@ -59,7 +59,7 @@ class _Verifier:
                 )
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record that the statement ``at`` assigns ``var``. Raise :class:`IllFormed` if an assigned variable
+        """Record that the statement ``at`` assigns ``var``. Raise :class:`IllFormed` if an earlier variable
         has the same name.
         """
         # Two variables with the same name would have the same identifier in emitted code.

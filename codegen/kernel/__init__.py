@@ -1,1 +1,1 @@
-"""The backend: it translates the program of a step to a kernel, which is a sequence of statements."""
+"""The backend translates the program of a step to a kernel, a sequence of statements."""

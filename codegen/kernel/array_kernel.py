@@ -74,9 +74,9 @@ class ArrayMethod:
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Compile ``method`` for ``scene``.
 
-    Each compiler pass is verified on a small problem on the sphere. This test is sufficient, because the
-    passes do not depend on the field or on the size of the matrices. MethodError is raised if the method has
-    implicit stages, or if one of its operations is not available for large matrices.
+    Each compiler pass is verified on a small problem on the sphere. One small problem is sufficient, because
+    the passes do not depend on the field or on the size of the matrices. MethodError is raised if the method
+    has implicit stages, or if one of its operations is not available for large matrices.
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -105,7 +105,7 @@ def compiled(
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a small problem on the sphere. It is used to verify the compiler passes."""
+    """Return the small problem on the sphere that is used to verify the compiler passes."""
     from sympy import Matrix as Column
     from sympy import Rational, Symbol, symbols
 
@@ -120,8 +120,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of a step program on a scene whose field is given by formulas with matrices.
 
-    MethodError is raised if the program has implicit stages. It is also raised if an operation of the program
-    is not available for large matrices.
+    MethodError is raised if the program has implicit stages, or if one of its operations is not available for
+    large matrices.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -185,7 +185,7 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
-        # Without the embedded solution, the only output is the new state, which is a single matrix.
+        # After the embedded solution is removed, the only output is the new state, a single matrix.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
@@ -285,8 +285,8 @@ class _Builder:
         """Append the computation of the core S of the field at a point X, and return S.
 
         The point is X = X_0 + B D, where X_0 is the old state, B is the basis, and D is the ``displacement``.
-        If D is zero, ``displacement`` is None. The matrix W consists of k columns of B. The index of the
-        first of these columns is ``first``. The field at X is the element W X^T - X W^T of the algebra.
+        If D is zero, ``displacement`` is None. The matrix W consists of the k columns of B that begin at the
+        index ``first``. The field at X is the element W X^T - X W^T of the algebra.
 
         The matrices J and E select columns of the basis: X_0 = B J and W = B E. With C = J + D, the point is
         X = B C. The core of the field is S = E C^T - C E^T.
@@ -308,8 +308,8 @@ class _Builder:
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
         """Return ``statement`` with the values of the time ``t`` and of the fixed parameters inserted."""
         values = {**self.scene.scalars(self.domain, t)}
-        # The symbols ROW and COLUMN are the indices of a matrix entry. These symbols are not replaced. In the
-        # emitted code, they are loop variables.
+        # The symbols ROW and COLUMN are the indices of a matrix entry. They are not replaced, because ROW and
+        # COLUMN are loop variables in the emitted code.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -339,8 +339,8 @@ class _Builder:
 
         Each pair in ``terms`` contains a coefficient and a core. The result has the size of the largest core.
         """
-        # If a core is smaller than the result, it is extended by zero rows and columns. The extended core
-        # represents the same element of the algebra.
+        # If a core is smaller than the result, it is extended by zero rows and columns. The element B S B^T
+        # of the algebra is the same for the extended core and for the original core S.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 

@@ -20,8 +20,8 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """An expression with at least this number of operations gets a name.
 
-With a smaller number, there are more and shorter assignments, and the operations remain the same. For the
-method vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187 assignments.
+A smaller number gives more and shorter assignments, but does not change the operations. For the method
+vcg:triple_jump on the scene heavy_top, the values 5, 10 and 20 give 265, 199 and 187 assignments.
 """
 
 
@@ -70,8 +70,8 @@ class Assignments:
             # If ``remembers`` is true, the start statement has already set the first values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. It must not
-            # use names from the loop body, so the matrix is processed before the body.
+            # If ``block.leading`` is true, Newton's matrix is computed before the first sweep. The matrix
+            # must not use names from the loop body, so it is processed before the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # ``block.kept`` lists values for statements after the loop. If no later expression reads a value,
@@ -135,7 +135,7 @@ class Assignments:
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
         # If solutions of earlier steps are stored, a step skips the assignments in the start statement. So
-        # other statements must not read the names of these assignments.
+        # other statements must not read the names that the start statement assigns.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All first values are set before the first loop, so no first value may depend on an unknown.

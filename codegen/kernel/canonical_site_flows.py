@@ -1,8 +1,9 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-One sweep computes successive kicks, or successive flows of other kinds. A kick is a flow that changes only
-the momenta. A kick reads the group elements q of neighbouring sites, but not their momenta. Therefore the
-sweep of a kick can overwrite the momenta. All other flows change each site independently of its neighbours.
+One sweep computes either successive kicks or successive flows of other kinds. A kick is a flow that changes
+only the momenta. A kick reads the group elements q of neighbouring sites, but not their momenta. Therefore
+the sweep of a kick can overwrite the momenta. All other flows change each site independently of its
+neighbours.
 """
 
 from __future__ import annotations
@@ -33,17 +34,17 @@ COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
 The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. So
-each of these two sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or
-visits pairs of sites, a copy is added before it. If the last sweep is a kick or visits pairs of sites, a copy
-is added after it.
+both sweeps must visit all sites and must not read neighbours. If the first sweep is a kick or visits pairs of
+sites, a copy is added before it. If the last sweep is a kick or visits pairs of sites, a copy is added after
+it.
 """
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
     """Return the kernel of a splitting method on a Hamiltonian lattice.
 
-    ``word`` lists the flows of a step with their durations. ``carrier`` is a summand of the Hamiltonian. The
-    time t advances only during the flows of this summand. If ``carrier`` is None, t is constant.
+    ``word`` lists the flows of a step with their durations. ``carrier`` is the summand of the Hamiltonian
+    whose flows advance the time t. If ``carrier`` is None, t is constant.
     """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
@@ -57,8 +58,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # One sweep computes the successive flows in ``run``. If a later run has the same flows and the same
-        # ratios of durations, the sweep is reused.
+        # One sweep computes the successive flows in ``run``. A later run with the same flows and the same
+        # ratios of durations uses this sweep again.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -139,8 +140,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # The sweep writes only momenta, and reads only the group elements q of the neighbours. So the same array
-    # can be read and overwritten.
+    # The sweep writes only momenta, and reads only the group elements q of the neighbours. So the sweep can
+    # read and overwrite one array.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))

@@ -66,7 +66,7 @@ class Frames:
         # argument is empty.
         if self._alike or not new:
             return new
-        # The group element is the same in both frames, so only the momentum is converted.
+        # The group element q does not depend on the frame, so only the momentum is converted.
         q = new[: self._size]
         if self.scene.body_group is not None:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))

@@ -1,8 +1,8 @@
-"""The choice among variants of a group, which update a rotation matrix in different ways.
+"""The choice among variants of a group. The variants update a rotation matrix in different ways.
 
-One variant rotates all three columns. The other variants rotate two columns and compute the third column as
-their cross product. The fastest variant depends on the columns that the scene uses. Therefore all variants
-are compiled, and the kernel with the shortest step is used. Times are estimated, not measured.
+One variant rotates all three columns. Each other variant rotates two columns. The third column is the cross
+product of these two columns. The fastest variant depends on the columns that the scene uses. Therefore all
+variants are compiled, and the kernel with the shortest step is used. Times are estimated, not measured.
 """
 
 from __future__ import annotations

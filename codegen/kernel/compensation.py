@@ -101,7 +101,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # Only kernels have the method ``expressions``, so a kernel with this single statement is formed.
+        # ``expressions`` is a method of kernels, so a kernel with this single statement is formed.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)

@@ -1,8 +1,8 @@
 """Shorten the critical path of a step, the longest chain of dependent operations.
 
-A processor can execute several products at the same time, but the operations of a chain must wait for each
-other. For example, a splitting step of a rigid body is one long chain: an angle, two trigonometric functions
-c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
+A processor can execute several products at the same time, but in a chain, each operation must wait for the
+previous operation. For example, a splitting step of a rigid body is one long chain: an angle, two
+trigonometric functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
 
 The functions c_1 and c_2 take long to compute. This module rewrites expressions to reduce the number of
 operations that wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1
@@ -40,9 +40,8 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """The largest difference between the longest chain and a rewritten chain, in latencies of an addition.
 
-If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The emitted
-files are the same for the limits 0, 2 and 4. Without a limit, the emitted splittings for fast_heavy_top
-differ.
+If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The limits
+0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top differ.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
@@ -82,7 +81,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
-    # ``walk`` stops at nodes with known times. It yields these nodes, too, but the loop skips them.
+    # ``walk`` stops at nodes with known times. ``walk`` also yields these nodes, but the loop skips them.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -92,8 +91,8 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
     """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
-    ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves these products out of the loop over the steps. If ``spread`` is false, no other
+    ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first. A
+    compiler then moves such products out of the loop over the steps. If ``spread`` is false, no other
     operations are rewritten.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
@@ -153,7 +152,8 @@ class _Chains:
             # Only sums, differences and products can be expanded to sums of products.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The expanded sum has more products, so it is used only if it is ready before ``plain``.
+                # The expanded sum ``short`` has more products. So ``short`` is used only if it is ready
+                # before ``plain``.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -161,7 +161,7 @@ class _Chains:
     def _ends(self) -> frozenset[int]:
         """Return the ids of the nodes that are expanded to sums of products.
 
-        Each of these nodes is on a long chain of operations, and depends on a slow operation. At least one
+        Each expanded node is on a long chain of operations, and depends on a slow operation. At least one
         operation that reads the node cannot be expanded together with the node.
         """
         ends = set()
@@ -170,7 +170,7 @@ class _Chains:
                 # The chains through ``arg`` and ``node`` are too short to be rewritten.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # For a square ``arg * arg``, which is not linear in ``arg``, ``others`` is empty.
+                # For a square ``arg * arg``, ``others`` is empty. A square is not linear in ``arg``.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
                 # The late factors of ``arg`` have the level ``late``. If the other factor of a product has a
@@ -188,7 +188,8 @@ class _Chains:
 
         The late factors are the factors of the given ``level`` (:meth:`_measure`).
         """
-        # The sum can depend on ``self.new[node.id]``, which changes when ``node`` is expanded.
+        # The sum can depend on ``self.new[node.id]``. This entry changes when ``node`` is expanded, so the
+        # key contains the id of the entry.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -224,7 +225,7 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of two values of a :data:`Sum` that have the same late factor."""
+        """Return the sum of two values of a :data:`Sum`, both with the same late factor."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 

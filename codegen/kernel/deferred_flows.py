@@ -1,9 +1,10 @@
 """Flows of a splitting method that are joined across steps (:class:`codegen.ir.kernel.Deferred`).
 
-A splitting method composes flows of parts of the vector field. If a step ends and the next step begins with a
-flow of the same part, these two flows are joined into one. The leading flow of the first step is applied
-separately, at the beginning of a run. A flow that commutes with all other flows is removed from the steps.
-After the last step, one flow of the total duration replaces the removed flows. Both changes are exact.
+A splitting method composes flows of parts of the vector field. If the last flow of a step and the first flow
+of the next step belong to the same part, these two flows are joined into one. The leading flow of the first
+step is applied separately, at the beginning of a run. A flow that commutes with all other flows is removed
+from the steps. After the last step, one flow of the total duration replaces the removed flows. Apart from
+rounding errors, joined and removed flows do not change the result of a run.
 """
 
 from __future__ import annotations
@@ -27,12 +28,12 @@ from codegen.scene.problem import Problem
 class Parted:
     """The three programs for the beginning, the steps and the end of a run.
 
-    - ``begin`` is executed before the first step. It is None if no flows are joined.
+    - ``begin`` is executed before the first step. If no flows are joined, ``begin`` is None.
     - ``core`` is executed in each step. A joined flow in ``core`` includes the leading flow of the next step.
       The duration of a joined flow is the variable :data:`LEAD`. In the last step of a run, LEAD is
       ``last`` * h, the duration without a next step. In all other steps, LEAD is ``later`` * h.
-    - ``finish`` is executed after the last step. It is None if no flow is deferred to the end of the run. The
-      flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
+    - ``finish`` is executed after the last step. If no flow is deferred to the end of the run, ``finish`` is
+      None. The flows in ``finish`` have the duration :data:`ELAPSED`, the sum of the durations of all steps.
     """
 
     begin: Program | None
@@ -45,8 +46,8 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program is not a composition of flows. It is also None if no flow can be
-    deferred, or if no flow would remain in the steps.
+    The result is None if the program is not a composition of flows, if no flow can be deferred, or if no flow
+    would remain in the steps.
     """
     letters = word(program)
     if letters is None:
@@ -65,10 +66,10 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All entries of ``joined`` contain the same two durations.
+    # The two durations are equal in all entries of ``joined``.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # ``heads`` contains leading flows, which belong to different parts. A flow in ``tails`` follows a leading
-    # flow of the same part, so no flow is in both sets.
+    # The leading flows in ``heads`` belong to different parts. Each flow in ``tails`` follows a leading flow
+    # of its own part, so no flow is in both sets.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core omits the flows in ``heads``, because the flows in ``tails`` of the previous step include them.
@@ -109,7 +110,7 @@ Timed = tuple[Letter, Var | None]
 """A flow with the variable that replaces its duration. None means that the duration is not replaced."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""A leading flow of a step and a final flow of the previous step, which are joined into one flow.
+"""A leading flow of a step and a final flow of the previous step. The two flows are joined into one.
 
 The first two entries are the indices of the leading flow and of the final flow. The third entry is the
 duration of the final flow. The fourth entry is the sum of the durations of both flows.
@@ -134,14 +135,15 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows read the same duration variable, so only pairs with equal durations are joined.
+    # All joined flows read their duration from the variable LEAD, so only pairs with equal durations are
+    # joined.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # If the first n flows commute pairwise, each of them can be moved to the beginning.
+    # If the first n flows commute pairwise, each of these flows can be moved to the beginning.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):

@@ -1,4 +1,4 @@
-"""Kernels of a continuous extension, which gives the state at any time inside a step.
+"""Kernels of a continuous extension. The extension gives the state at any time inside a step.
 
 Let y be the state at the beginning of a step from t to t + h. For 0 <= theta <= 1, the solution at the time
 t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra. One kernel
@@ -24,7 +24,7 @@ COORDINATES = "coordinates"
 
 
 def continuous(program: Program, problem: Problem, order: int) -> Continuous:
-    """Return the kernels of a continuous extension, which gives the state at any time inside a step.
+    """Return the kernels that give the state at any time inside a step (continuous extension).
 
     The outputs of ``program`` are the coefficients of the polynomial sigma(theta) with values in the Lie
     algebra. One kernel computes these coefficients. The other kernel computes exp(x).y for x = sigma(theta).

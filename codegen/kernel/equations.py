@@ -25,24 +25,24 @@ MANY = 12
 """The largest number of unknowns for which all products of sums in Newton's matrix are expanded. With more
 unknowns, sums that do not change during the iteration are not expanded.
 
-For few unknowns, the values of these sums would occupy registers that the sweeps need. For many unknowns, an
-expanded matrix would make the code longer. Near the limit, both forms have similar lengths. For example, the
-kernel of vcf:cf4 on dipole has 12 unknowns. It has 472 assignments with the expanded matrix, and 439 without
-the expansion.
+For few unknowns, the values of unexpanded sums would occupy registers that the sweeps need. For many
+unknowns, an expanded matrix would make the code longer. Near the limit, both forms have similar lengths. For
+example, the kernel of vcf:cf4 on dipole has 12 unknowns. This kernel has 472 assignments with the expanded
+matrix, and 439 without the expansion.
 """
 
 LONGEST_MATRIX = 1500
 """The largest number of operations for the exact matrix of Newton's method. A matrix with more operations is
 replaced by its expansion to first order in h.
 
-Most matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. The
-emitted kernels are the same for a limit of 6000.
+Most matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. A limit
+of 6000 gives the same emitted kernels.
 """
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""Costs of operations. All operations that are not listed, such as additions and products, have the cost 1.
+"""Costs of operations. Additions, products and all other operations that are not listed have the cost 1.
 
-The costs are rough latencies. They decide whether a value is corrected after a loop or computed again
+The costs are rough latencies. The costs decide whether a value is corrected after a loop or computed again
 (:func:`compared`).
 """
 
@@ -96,7 +96,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # The sums in ``free`` are not multiplied out: ``NormalForms`` treats each of them as a single symbol.
+    # The sums in ``free`` are not multiplied out: ``NormalForms`` treats each sum as a single symbol.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:

@@ -1,7 +1,7 @@
 """Translates programs for large linear problems y' = A(t) y to kernels (:mod:`codegen.ir.linear_array_step`).
 
-Each exponent in such a program is a linear combination of matrices h A(t_i) and of their commutators. Here
-t_i are the stage times.
+Let t_i be the stage times. Each exponent in such a program is a linear combination of matrices h A(t_i) and
+of their commutators.
 """
 
 from __future__ import annotations
@@ -174,7 +174,7 @@ class _Builder:
         """Compute and store the value of the variable that an assignment sets."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
-        # If several exponents contain the same variable, it is computed only once.
+        # A variable that several exponents contain is computed only once.
         if target in self.values or target in self.moments:
             return
         match operation:
@@ -228,9 +228,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, :func:`_difference` subtracts a multiple of y from x. The result is
-        usually a combination of differences A(t_i) - A(t_j), which are small for small h. This reduces the
-        bound of the norm of [x, y].
+        If x and y contain no commutators, :func:`_difference` subtracts a multiple of y from x. The new x is
+        usually a combination of differences A(t_i) - A(t_j). For small h these differences are small, so the
+        bound of the norm of [x, y] is smaller.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)

@@ -195,9 +195,10 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return the kernel that computes the formulas. Its inputs are the symbols that the formulas read.
+        """Return the kernel that computes ``formulas``. The symbols in the formulas are the inputs of the
+        kernel.
 
-        A parameter that is no run-time argument becomes a constant.
+        But a parameter that is no run-time argument becomes a constant.
         """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
@@ -219,7 +220,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # The power of h is arbitrary for a zero element. Here it is 1.
+                # The power of h is arbitrary for a zero element. The power 1 is used.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -256,7 +257,7 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # The sum is one ``_Element``, so all nonzero terms must have the same power of h.
+        # An ``_Element`` has one power of h, so all nonzero terms of the sum must have the same power.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -329,7 +330,7 @@ class _Execution:
         # A term with the coefficient 1 needs no product and therefore no table.
         if multiplier.is_one and not power:
             return None
-        # Equal multipliers share one table, which saves time and memory.
+        # To save time and memory, equal multipliers share one table.
         key = (multiplier.key, power)
         if key not in self.tables:
             self.tables[key] = len(self.listed)

@@ -1,9 +1,9 @@
 """Matrices 1 - g'(u) of Newton's method for equations u = g(u).
 
 A matrix is either exact or expanded to first order in h. The expansion is cheap, because it contains only
-derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each iteration with this matrix
-multiplies the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are inverted
-by cofactors.
+derivatives at h = 0. The error of the expanded matrix is O(h^2). Therefore each iteration with the expanded
+matrix multiplies the error of u by O(h^2), and the iteration converges fast for small h. Small matrices are
+inverted by cofactors.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     h = space.sym("h")
     # ``slopes`` are the derivatives of ``images`` with respect to h.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # Functions and derivatives share subexpressions, so one call inserts h = 0 in all of them.
+    # ``images`` and ``slopes`` share subexpressions, so one call inserts h = 0 in both lists.
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]

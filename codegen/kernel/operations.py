@@ -160,7 +160,7 @@ def costs(kernel: Kernel) -> list[str]:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # At the end of a run, the momentum increases by the difference of two results of ``outward``. Each
-        # component takes a subtraction and an addition. Both count as ``add``.
+        # component takes a subtraction and an addition, and both operations count as ``add``.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run executes ``inward`` and ``outward`` at its beginning, and ``outward`` again at its end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

@@ -64,8 +64,8 @@ def function(
     """Return the outlined function for a tree, and its arguments.
 
     The arguments are two lists: the indices of inputs of the tree, and the names of scene parameters.
-    ``read`` contains the indices of the results that the function returns. ``fixed`` contains None for each
-    input of the tree, or the constant that all calls pass for this input.
+    ``read`` contains the indices of the results that the function returns. ``fixed`` has one entry for each
+    input of the tree: the constant that all calls pass for this input, or None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
@@ -107,7 +107,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # Each result gets a text, so that ``texts`` and ``results`` have the same indices.
+            # ``texts`` and ``results`` must have the same indices, so each result gets a text.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
@@ -135,8 +135,8 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has one expression for each result. These expressions have equal arguments, so they are
-            # counted once.
+            # Each result of a call is a separate expression. All expressions of one call have equal
+            # arguments, so the call is counted once.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 

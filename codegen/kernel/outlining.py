@@ -1,12 +1,12 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees with equal keys
-differ only in their operands and coefficients. One function replaces these trees
-(:mod:`codegen.kernel.outlined_functions`). Its arguments are the operands and coefficients.
+differ only in their operands and coefficients. One function replaces several trees with equal keys
+(:mod:`codegen.kernel.outlined_functions`). The arguments of the function are the operands and coefficients.
 
-Outlining shortens the code. But two calls of a function cannot share common subexpressions, such as the sine
-of one angle. In short steps the repeated computations cost more time than the shorter code saves. Therefore
-only long steps are outlined.
+Outlining shortens the code. But if two calls contain a common subexpression, for example the sine of one
+angle, each call computes the subexpression again. In short steps the repeated computations cost more time
+than the shorter code saves. Therefore only long steps are outlined.
 
 Apart from rounding errors, outlining does not change the values of expressions. To verify this, the old and
 the new expressions are evaluated at a test point.
@@ -40,7 +40,7 @@ The exact limits hardly matter. To choose new limits, set both to 0 and compare 
 """
 
 WORTH = 0.85
-"""A step is outlined only if the number of its assignments decreases to less than this fraction.
+"""A step is outlined only if this reduces the number of its assignments to less than this fraction.
 
 Calls cost time, so the step must become much shorter. The exact limit hardly matters. The fraction is between
 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole, and for ``vcg:gauss4`` on
@@ -57,14 +57,14 @@ wrong argument, the leading digits of the values would change.
 ATTEMPTS, DIGITS = 8, 60
 """The verification tries ATTEMPTS test points in double precision.
 
-If none of them gives finite values, it tries ATTEMPTS further points with DIGITS decimal digits. If no point
-gives finite values, MethodError is raised.
+If no point gives finite values, the verification tries ATTEMPTS further points with DIGITS decimal digits. If
+no further point gives finite values, MethodError is raised.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
 """A pair (key, indices) that describes an outlined function.
 
-The function replaces the trees with this key. It returns the results of a tree with these indices.
+The function replaces trees with this key, and returns the results with these indices.
 """
 
 
@@ -128,7 +128,7 @@ class Outline:
             name = f"piece_{1 + len(self.outlined)}"
             shapes[name] = key
             inputs = [self.trees.inputs(tree) for tree in trees]
-            # An input that is the same constant in every call becomes part of the function.
+            # If all calls pass the same constant for an input, this constant becomes part of the function.
             fixed = [
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
@@ -140,7 +140,8 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Two trees may have the same expression as a result. The first call then replaces it.
+                    # Two trees may have the same expression as a result. The call of the first tree then
+                    # replaces the expression.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
@@ -167,8 +168,8 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
-            # A function with a single call saves nothing, so a tree without a second tree of the same shape
-            # is removed.
+            # A function with a single call saves nothing. So a tree is removed if no other tree has the same
+            # shape.
             left = [t for alike in kept.values() for t in alike]
             # If no tree was removed, a repetition would find the same groups.
             if len(left) == len(trees):
@@ -228,7 +229,8 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # The step size is halved for each new test point, so that finite values become more likely.
+            # The step size is halved for each new test point, because a smaller step gives finite values more
+            # often.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             # If no point gives finite doubles, numbers with more digits and a larger range are tried.
