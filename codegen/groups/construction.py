@@ -25,8 +25,8 @@ def check_size(name: str, n: object, least: int) -> None:
 def check_factor(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not a group.
 
-    The error message contains ``name``, a text such as "a product". This text describes the larger group that
-    is constructed from ``group``.
+    The text ``name`` describes the larger group that is constructed from ``group``, for example "a product".
+    The error message contains ``name``.
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

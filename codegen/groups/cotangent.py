@@ -1,4 +1,4 @@
-"""The cotangent bundle T*G of a Lie group G as a Lie group. Its elements are pairs (g, mu)."""
+"""The cotangent bundle T*G of a Lie group G as a Lie group. The elements of T*G are pairs (g, mu)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     """T*G with the product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu). The coordinates of g come before the
     coordinates of mu. Arnold and Khesin (I.10.B) call T*G the magnetic extension of G.
 
-    An element of the algebra is a pair (xi, n). Let f be a vector field with values f(q, mu) = (xi, n). Its
-    differential equations are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis). Here
-    xi.q is the derivative of exp(eps xi) q at eps = 0.
+    An element of the algebra is a pair (xi, n). A vector field with the values f(q, mu) = (xi, n) has the
+    differential equations q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27 of H. Marthinsen's thesis), where xi.q
+    is the derivative of exp(eps xi) q at eps = 0.
 
     - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
     - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
@@ -78,8 +78,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
-        This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). It maps the
-        differential of a Hamiltonian to the Hamiltonian vector field.
+        The map of covectors (a, b) is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's
+        thesis). The bivector maps the differential of a Hamiltonian to the Hamiltonian vector field.
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])

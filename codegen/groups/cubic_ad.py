@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp of ad_x as a word, which is a product of functions (:mod:`codegen.ir.ad_series`)."""
+"""The function dexp of ad_x as a word. A word is a product of functions (:mod:`codegen.ir.ad_series`)."""
 
 
 class CubicAd(ClosedFormSeries):
@@ -55,7 +55,7 @@ class CubicAd(ClosedFormSeries):
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         In each triple, f is a number, and W(ad_x) is a polynomial 1 + b ad_x + c ad_x^2. Let A, B and C be
-        the sums of f v, f b v and f c v. The result is A + ad_x (B + ad_x C), which needs two brackets.
+        the sums of f v, f b v and f c v. The result A + ad_x (B + ad_x C) needs two brackets.
 
         If ``dual`` is true, ad*_x replaces ad_x. If the function ``total`` is given, it computes A from the
         indices of all terms.

@@ -20,7 +20,7 @@ class Galilean(Semidirect):
 
     The elements of the algebra are (w, b, u, r). The components w, b, u and r are the derivatives of R, v, p
     and s at the identity. The exponential of (w, b, u, r) is (exp w, dexp_w b, dexp_w u + r psi(w) b, r).
-    Here psi(w) is the sum of W^k/(k+2)! over k >= 0. The matrix W satisfies W a = w cross a for all a.
+    Here psi(w) is the sum of W^k/(k+2)! over k >= 0 for the matrix W with W a = w cross a for all a.
     """
 
     name = "Gal(3)"

@@ -13,8 +13,8 @@ from codegen.ir.domain import Domain
 class LargeGroup(LieGroup):
     """A group of large n x n matrices.
 
-    The operations of the group raise :class:`codegen.errors.SceneError`. The text ``families`` is a part of
-    the error message. It lists the families of methods that work for the group.
+    The operations of the group raise :class:`codegen.errors.SceneError`. The text ``families`` lists the
+    families of methods that work for the group. The error message contains this text.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -62,7 +62,7 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. Emitted steps compute exp(A) y for a vector y without the matrix exp(A). They
+    """GL(n) for large n. Emitted steps compute exp(A) y for a vector y without the matrix exp(A). The steps
     multiply vectors by matrices (:mod:`codegen.ir.linear_array_step`).
     """
 

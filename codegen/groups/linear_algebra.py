@@ -1,8 +1,8 @@
 """Scalars, vectors and matrices over any domain, and their linear algebra.
 
-A domain is a set of numbers, such as floats, mpmath numbers, power series or expressions. A vector is a tuple
-of scalars, and a matrix is a tuple of its entries row by row. The functions of this module use only the four
-arithmetic operations and the functions of the domain, so they work in every domain.
+A domain is a set of scalars, for example floats, mpmath numbers, power series or expressions. A vector is a
+tuple of scalars, and a matrix is a tuple of its entries row by row. The functions of this module use only the
+four arithmetic operations and the functions of the domain. Therefore they work in every domain.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return the scalar product of a and b. Its terms are added from the first to the last."""
+    """Return the scalar product of a and b. The terms are added from the first to the last."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -52,7 +52,7 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 
 
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
-    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3).
+    """Return v (1 + e/2 + 3 e^2/8) = v/sqrt(1 - e) + O(e^3).
 
     If e = 1 - |v|^2, the vector v/sqrt(1 - e) is the unit vector v/|v|.
     """
@@ -135,8 +135,8 @@ WITHOUT_PIVOTS = 3
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     """Return the inverse of an n x n matrix.
 
-    Small matrices are inverted by the Faddeev-LeVerrier recursion, which needs no pivots. Large matrices are
-    inverted by elimination with row exchanges.
+    Small matrices are inverted by the Faddeev-LeVerrier recursion. This recursion needs no pivots. Large
+    matrices are inverted by elimination with row exchanges.
     """
     if n > WITHOUT_PIVOTS:
         return d.vector(f"inverse{n}", g)

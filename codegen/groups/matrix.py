@@ -75,7 +75,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
         """Return the element mu of the dual with <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
 
-        M is the argument ``matrix``. It may be any n x n matrix. If M = dual_hat(nu), the result is nu.
+        The argument ``matrix`` is M. Every n x n matrix M is allowed. If M = dual_hat(nu), the result is nu.
         """
         return _weighted(d, self.algebra.basis, matrix)
 
@@ -145,7 +145,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return tuple(total)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y.
+        """Return ad*_x mu, defined by <ad*_x mu, y> = <mu, [x, y]> for all y.
 
         Let a = hat(x) and M = dual_hat(mu). The result is dual_vee([a^T, M]).
         """
@@ -174,7 +174,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu, which is defined by <Ad*_g mu, y> = <mu, Ad_g y> for all y.
+        """Return Ad*_g mu, defined by <Ad*_g mu, y> = <mu, Ad_g y> for all y.
 
         Let M = dual_hat(mu). The result is dual_vee(g^T M g^-T).
         """
@@ -222,7 +222,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         """Return the product of exp(x, n) and (q, mu) in the group T*G.
 
         The first component is exp(x) q. The second component is the result of :meth:`transport`. If the
-        algebra is not nilpotent, both components are computed from the same matrix exp(x).
+        algebra is not nilpotent, the matrix exp(x) is computed once and used for both components.
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)

@@ -23,8 +23,8 @@ class MatrixAlgebra:
     """A vector space of n x n matrices that is closed under [A, B] = AB - BA.
 
     - ``basis`` contains the basis matrices e_0, e_1, ...
-    - ``dual`` is the dual basis, which consists of matrices of the same space. Coordinate i of a matrix A is
-      sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
+    - ``dual`` contains the matrices of the dual basis. These matrices are elements of the vector space, too.
+      Coordinate i of a matrix A is sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
     - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
       e_k.
     """
@@ -72,7 +72,7 @@ def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebr
 
     :class:`codegen.errors.SceneError` is raised if the matrices are not a basis of a Lie algebra.
     """
-    # Commands construct the same group several times. Therefore the algebra is cached.
+    # The result is cached, because a command can construct one group several times.
     dual = _dual(name, basis)
     finder = _Coordinates(name, basis, dual, n)
     constants: list[tuple[int, int, int, Fraction]] = []

@@ -32,7 +32,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     the other. Every operation acts on each factor separately.
 
     SO(3) x R^3 is not the group of rigid motions, because the rotation does not act on the vectors of R^3.
-    The product has a capability such as :class:`CayleyMap` only if all factors have this capability.
+    The product has a capability, for example :class:`CayleyMap`, only if all factors have this capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:

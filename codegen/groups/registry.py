@@ -1,7 +1,7 @@
 """Registries of groups and actions. A registry finds a class by the name of the class.
 
-A registry contains the classes of this package and the classes that :func:`codegen.groups.register` has
-added. The classes of this package are imported on first use.
+A registry contains the built-in groups or the built-in actions of this package, and the classes that
+:func:`codegen.groups.register` has added. The built-in classes are imported on first use.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ class Registry(Generic[T]):
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
-        The class replaces an earlier added class of the same name. Therefore a scene file that adds classes
-        can be read twice. :class:`SceneError` is raised if a built-in class has the same name, or if the
-        class has abstract methods.
+        If the registry contains an added class with the name of ``cls``, ``cls`` replaces that class.
+        Therefore a scene file that adds classes can be read twice. :class:`SceneError` is raised if a
+        built-in class has the name of ``cls``, or if ``cls`` has abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
@@ -55,7 +55,7 @@ class Registry(Generic[T]):
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class with this name. If no class has this name,
+        """Return the class with the given name. If no class has this name,
         :class:`orderconds.errors.UnknownName` is raised.
         """
         if name in self._added:

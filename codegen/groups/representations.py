@@ -35,14 +35,14 @@ Pair = tuple[Vector[S], Vector[S]]
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector lists its components copy by copy, but the methods of this class act on one copy. ``needs`` is
-    the capability that the group must have.
+    A vector of the whole space lists its components copy by copy. Each method of this class acts on the
+    vectors of one copy. ``needs`` is the capability that the group must have.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. Only then can a semidirect product with this representation have the
-    capability :class:`Covered`.
+    """True if the representation is Ad. If it is not Ad, a semidirect product with this representation does
+    not have the capability :class:`Covered`.
     """
 
     def __init__(self, copies: int = 1) -> None:
@@ -68,7 +68,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-T p for the representation rho. Here -T means the inverse of the transpose."""
+        """Return rho(g)^-T p for the representation rho, where -T means the inverse of the transpose."""
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
@@ -106,8 +106,8 @@ class Representation(ABC):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        x and v are elements of the algebra of the semidirect product. Such an element is a pair: an element
-        of the group's algebra, and a vector of one copy of the space.
+        x and v are elements of the algebra of the semidirect product. Each of them is a pair: an element of
+        the group's algebra, and a vector of one copy of the space.
         """
         raise self._missing("series")
 
@@ -139,9 +139,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """One or more copies of the Lie algebra. The group acts on each copy by Ad. For SO(3), each copy is R^3.
 
-    Here x.v is the bracket [x, v]. A vector of dual numbers, x + u e with e^2 = 0, represents the element
-    (x, u) of the semidirect product's algebra. The bracket of (x, u) and (y, v) is [x + u e, y + v e].
-    Therefore the group's formulas for functions of ad can be evaluated with dual numbers.
+    For this representation, x.v is the bracket [x, v]. A vector of dual numbers, x + u e with e^2 = 0,
+    represents the element (x, u) of the semidirect product's algebra. The bracket of (x, u) and (y, v) is
+    [x + u e, y + v e]. Therefore the group's formulas for functions of ad can be evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -177,7 +177,7 @@ class AlgebraVectors(Representation):
         return group.require(Coadjoint).adt(d, x, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map -ad*_v p. It satisfies <-ad*_v p, x> = <p, [x, v]> for all x."""
+        """Return the momentum map J(v, p) = -ad*_v p. Thus <J(v, p), x> = <p, [x, v]> for all x."""
         return tuple(-a for a in group.require(Coadjoint).adt(d, v, p))
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
@@ -341,7 +341,7 @@ class PlaneVectors(MatrixColumns):
 
         Let x = (w, u) and v = (y, q) with numbers w, y and vectors u, q. Let J be the rotation by a right
         angle: J(s, t) = (-t, s). Then ad_x v = (0, r) and ad_x^2 v = (0, w J r) with r = w J q - y J u.
-        The factors of ``word`` are power series with the constant term 1. Their product is
+        The factors of ``word`` are power series with the constant term 1. The product of the factors is
         1 + b ad_x + c ad_x^2 with numbers b and c. The result is (y, q + b r + c w J r).
         """
         (w,), u = x

@@ -1,4 +1,4 @@
-"""S^3: the group of unit quaternions, which is the double cover of SO(3).
+"""The group S^3 of unit quaternions. S^3 is the double cover of SO(3).
 
 The Lie algebra of S^3 consists of the pure quaternions.
 """
@@ -18,9 +18,9 @@ from codegen.ir.number import Number
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3) with real part q0 and Hamilton's product.
 
-    An element of the algebra is a vector x of R^3, which represents the pure quaternion (0, x) (H.
-    Marthinsen's thesis, section 2.6). In the formulas below, g^c is the conjugate of g, z = |x|^2, and c_k
-    are the Stumpff functions.
+    A vector x of R^3 represents the element (0, x) of the algebra, a pure quaternion (section 2.6 of
+    H. Marthinsen's thesis). In the formulas below, g^c is the conjugate of g, z = |x|^2, and c_k are the
+    Stumpff functions.
 
     - The bracket is [x, y] = x y - y x = 2 (x cross y). The dual of ad_x is ad*_x mu = 2 (mu cross x).
     - The adjoint action Ad_g x = g x g^c is a rotation of R^3. The dual is Ad*_g mu = g^c mu g.
@@ -67,11 +67,11 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return tuple(square * b - factor * a for a, b in zip(x, y, strict=True))
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the conjugate of g, which is the inverse of a unit quaternion."""
+        """Return the conjugate of g. The conjugate of a unit quaternion is its inverse."""
         return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return the number z = 4 |x|^2, which satisfies ad_x^3 = -z ad_x."""
+        """Return z = 4 |x|^2. The number z satisfies ad_x^3 = -z ad_x."""
         four: S = d.rational(4)
         return four * dot(x, x)
 

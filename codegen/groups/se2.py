@@ -67,7 +67,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(factor * a for a in x)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the inverse of the motion z -> R z + a, which is z -> R^T (z - a)."""
+        """Return the motion z -> R^T (z - a), the inverse of the motion g: z -> R z + a."""
         c, s, a, b = g
         return (c, -s, -(c * a + s * b), s * a - c * b)
 
@@ -94,7 +94,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y."""
+        """Return ad*_x mu, defined by <ad*_x mu, y> = <mu, [x, y]> for all y."""
         w, u, v = x
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
@@ -108,7 +108,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (w, c * u - s * v + w * b, s * u + c * v - w * a)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu, which is defined by <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
+        """Return Ad*_g mu, defined by <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
         c, s, a, b = g
         m, p, r = mu
         return (m + p * b - r * a, c * p + s * r, c * r - s * p)

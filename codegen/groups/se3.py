@@ -17,8 +17,8 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - For a function of ad_(w, u), the formula for the same function of ad_w is evaluated at the dual number
-      w + u e, where e^2 = 0.
+    - A function F(ad_(w, u)) is computed by the formula for F(ad_w), evaluated at the dual number w + u e in
+      place of w, where e^2 = 0.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """

@@ -214,7 +214,7 @@ class Semidirect(
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). Here a.v is the action of a on v."""
+        """Return [x, y] = ([a, b], a.v - b.u) for x = (a, u), y = (b, v) and the action a.v of a on v."""
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
@@ -473,7 +473,7 @@ class Semidirect(
         """Return the symbols of the linear factor, followed by the symbols of the vector.
 
         The symbols of the vector are ``name`` followed by an index. If the linear factor uses one of these
-        symbols, the letter v precedes each index of the vector.
+        symbols, the letter v is inserted before the index in every symbol of the vector.
         """
         from sympy import Symbol
 

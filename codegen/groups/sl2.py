@@ -59,7 +59,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return self.Adt(d, _adjugate(g), mu)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the adjugate matrix of g, which is the inverse because det g = 1."""
+        """Return the adjugate of the matrix g. Because det g = 1, the adjugate is the inverse of g."""
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -82,7 +82,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
 
 
 def _adjugate(g: Vector[S]) -> Vector[S]:
-    """Return the adjugate of the matrix g, which is the inverse if det g = 1."""
+    """Return the adjugate of the matrix g. If det g = 1, the adjugate is the inverse of g."""
     return (g[3], -g[1], -g[2], g[0])
 
 

@@ -79,7 +79,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (((q[0], q[0]), terms),)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2. This normalises g up to O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2. The length of the result is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

@@ -1,4 +1,4 @@
-"""SO(3), the group of rotation matrices. Its algebra so(3) and the dual of so(3) are identified with R^3."""
+"""The group SO(3) of rotation matrices. The algebra so(3) and the dual of so(3) are identified with R^3."""
 
 from __future__ import annotations
 
@@ -44,8 +44,9 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). It
-    rotates the other two columns of g. Their cross product is the column ``dependent`` of the result.
+    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). The
+    method rotates the other two columns of g. The column ``dependent`` of the result is the cross product of
+    the rotated columns.
     """
 
     name = "SO(3)"
@@ -145,7 +146,7 @@ class SO3(
         return self.Adt(d, g, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu, which is equal to dexp_{-x} mu.
+        """Return dexp*_x mu = dexp_{-x} mu.
 
         The formula is mu - c_2 (x cross mu) + c_3 (x cross (x cross mu)). Here c_2 and c_3 are the values of
         the Stumpff functions with the indices 2 and 3 at x.x.
@@ -184,8 +185,8 @@ class SO3(
         ad*_x = -ad_x replaces ad_x. The sum is computed as A + x cross (B + x cross C), where A, B and C are
         linear combinations of the vectors v.
 
-        If the function ``total`` is given, it computes sums of the vectors f v. Its argument contains the
-        indices of the summed terms.
+        If the function ``total`` is given, it computes sums of the vectors f v. The argument of ``total``
+        contains the indices of the summed terms.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -253,7 +254,7 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # For short steps, the terms with c1 and c2 are small. The sum of these two terms is added to y.
+        # For short steps, the terms with c1 and c2 are small. These two terms are added first, then y.
         # Therefore only one addition has a rounding error proportional to y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
@@ -357,7 +358,7 @@ class SO3(
         return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x/2. The quaternion exp(x/2) represents the same rotation as the matrix exp(x)."""
+        """Return x/2. The matrix exp(x) is the rotation matrix of the unit quaternion exp(x/2)."""
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:

@@ -38,11 +38,11 @@ class SU2(S3):
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y. This vector is twice the result of :meth:`S3.dcayinv` for x/2 and y/2."""
+        """Return dcay^{-1}_x y, computed as twice the result of :meth:`S3.dcayinv` for x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x. This vector is twice the result of :meth:`S3.sandwich` for x/2 and y/2."""
+        """Return x y x, computed as twice the result of :meth:`S3.sandwich` for x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -27,7 +27,7 @@ class Unitary(RotationGroup):
         """Compute the basis of the algebra, and initialise the group with this basis.
 
         ``diagonal`` contains one table for each diagonal matrix of the basis. The table maps the position
-        (row, column) of an entry to the imaginary part of this entry.
+        (row, column) of each non-zero entry to the imaginary part of the entry.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
@@ -88,7 +88,7 @@ def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, i
     """Return the real 2n x 2n matrix of a complex n x n matrix.
 
     The table ``real`` maps (row, column) to the real part of the entry, if the real part is not zero. The
-    table ``imaginary`` does the same for the imaginary parts.
+    table ``imaginary`` maps (row, column) to the imaginary part, if the imaginary part is not zero.
     """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))

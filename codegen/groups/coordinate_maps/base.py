@@ -13,8 +13,8 @@ from codegen.ir.domain import Domain
 
 
 class CoordinateMap(ABC):
-    """A map tau from the algebra to the group. Its value tau(0) is the neutral element, and its derivative at
-    zero is the identity map.
+    """A map tau from the algebra to the group. The value tau(0) is the neutral element, and the derivative of
+    tau at zero is the identity map.
 
     A Runge-Kutta-Munthe-Kaas method solves y' = f(y).y with y(0) = y0, where f(y) is in the algebra. With
     y = tau(x).y0, the equation becomes x' = dtau^{-1}_x f(tau(x).y0). A Runge-Kutta method solves the

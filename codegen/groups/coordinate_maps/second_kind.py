@@ -47,8 +47,8 @@ class SecondKind(CoordinateMap):
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
         # Let E_k = exp(x_k e_k). Both sides of dtau_x v = y are multiplied by the inverse of Ad_{E_1}. Then
-        # the matrix of the system has the columns e_1, e_2, Ad_{E_2} e_3, and so on. Its first two pivots
-        # are 1.
+        # the matrix of the system has the columns e_1, e_2, Ad_{E_2} e_3, and so on. The first two pivots of
+        # this matrix are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
@@ -63,6 +63,6 @@ def _adjoint(d: Domain, group: LieGroup, k: int, t: S, v: Vector[S]) -> Vector[S
     matrices = group.offers(MatrixElements)
     if matrices is None:
         return group.require(Coadjoint).Ad(d, g, v)
-    # The inverse of g is exp(-t e_k). This exponential costs less than inverting the matrix g.
+    # The inverse of g is computed as exp(-t e_k), which costs less than inverting the matrix g.
     n, back = matrices.order, group.expbasis(d, k, -t)
     return matrices.vee(d, matmul(matmul(g, matrices.hat(d, v), n), back, n))
