@@ -2,8 +2,8 @@
 
 If only one assignment reads the results of another assignment, both assignments can be joined into one tree.
 Pairs of trees that occur often are joined into larger trees. The pairs that save the most lines of code are
-joined first. Each tree has a key. Trees with equal keys have the same operations, but may have different
-operands and coefficients.
+joined first. Each tree has a key. Trees with equal keys have the same operations. Their operands
+and coefficients may differ.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ are exact flows of parts of the vector field.
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-This number converts operations to lines. The values 2, 3 and 5 give the same files in ``generated/``, but
-different code for longer steps. For the values 2, 3 and 5, the step of cg:cg5 on dipole has 471, 454 and
-394 assignments.
+NODES converts a number of operations to a number of lines. The values 2, 3 and 5 of NODES give the same files
+in ``generated/``. For longer steps, the three values give different code: the step of cg:cg5 on dipole has
+471, 454 and 394 assignments.
 """
 
 Values = tuple[Expr, ...]
@@ -122,8 +122,9 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # An assignment can be joined with the reader of its result only if there is one reader. For example,
-        # y = h x is read by z = y/2 and by another assignment. With z = (h/2) x, y has only one reader.
+        # Two assignments can be joined only if no third assignment reads the result of the first. For
+        # example, y = h x is read by z = y/2 and by another assignment. With z = (h/2) x, only one reader of
+        # y remains.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -132,7 +133,7 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Join the assignments into trees, as long as this saves lines of emitted code. Return the trees."""
+        """Join assignments into trees while joining saves lines of emitted code. Return the trees."""
         self._find_users()
         # At the beginning each tree contains one assignment. The index of a tree is the index of its last
         # assignment. ``owner`` maps each assignment to the index of its tree.
@@ -183,16 +184,15 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree also occurs outside these pairs, its own function is still needed. The function of the
-        # joined tree repeats the lines of this function.
+        # If a tree also occurs outside these pairs, the function of the tree is still needed. The function of
+        # the joined tree then contains a copy of the same lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # Joining replaces two calls by one, which saves about three lines.
+        # In each pair, joining replaces two calls by one. The replacement saves about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of code for assignment ``i``."""
-        # The estimate for the first assignment with an operation name is used for all later assignments with
-        # this name.
+        # All assignments with the same operation name get the estimate for the first of these assignments.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -213,10 +213,11 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # The statement is not an assignment, so it belongs to no tree. It is recorded as None.
+                    # This reader is not an assignment, so it belongs to no tree. None represents the
+                    # reader in the list of readers.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs are read outside the program. Such a reader is recorded as None.
+            # Outputs are read outside the program. A reader outside the program is recorded as None.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -315,7 +316,7 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     """
     seen: dict[Coefficient, int] = {}
     # A coefficient 1 needs no product, and terms with equal coefficients need only one product. Therefore the
-    # key records which coefficients are 1 and which are equal.
+    # key of a tree records which coefficients are 1 and which coefficients are equal to each other.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

@@ -1,7 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
-One call computes all Stumpff functions c_k of an argument. Powers become products. This module adds names for
-the results of calls and products. A name that it adds inside a loop is not read outside this loop.
+All required Stumpff functions c_k of an argument are computed by one call. Powers become products. The
+results of calls and products get new names. A new name inside a loop is not read outside this loop.
 """
 
 from __future__ import annotations
@@ -35,7 +35,10 @@ class Assignment:
 
 @dataclass(frozen=True)
 class SharedCall:
-    """One call of several Stumpff functions: ``names[i]`` is c_k(``argument``) for k = ``orders[i]``."""
+    """One call that computes several Stumpff functions c_k of ``argument``.
+
+    The variable ``names[i]`` gets the value of c_k for k = ``orders[i]``.
+    """
 
     names: tuple[str, ...]
     orders: tuple[int, ...]
@@ -186,8 +189,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Outputs and error estimates can share calls, so one list contains both.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # One call computes all Stumpff functions c_k of an argument. Therefore all indices k are recorded before
-    # the first statement is rewritten.
+    # All required Stumpff functions c_k of an argument are computed by one call. Therefore all indices k are
+    # recorded before the first statement is rewritten.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -202,8 +205,8 @@ def arrange(kernel: Kernel) -> Arrangement:
         # Starting values are computed before the loop.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        # Later statements may read values from the body of the loop. Such values need variables outside the
-        # loop.
+        # Later statements may read values from the body of the loop. These values need variables that are
+        # declared outside the loop.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
@@ -279,7 +282,7 @@ class _Scope:
 
     - ``known`` maps the id of each node to the expression that replaces the node.
     - ``orders`` maps the id of each argument of Stumpff functions c_k to the sorted indices k.
-    - ``pending`` contains new statements, which are placed before the next statement.
+    - ``pending`` contains new statements, to be placed before the next statement.
     """
 
     taken: dict[str, int]
@@ -314,14 +317,14 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The sorted indices form the name of the function, such as stumpff_12.
+        # The sorted indices k form the name of the function. For example, stumpff_12 computes c_1 and c_2.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If the value is a result of a call, it already has a name. Then the assignment is omitted, unless
-        ``kept`` is true.
+        If the value is a result of a call, the value already has a name. If ``kept`` is false, the assignment
+        of such a value is omitted.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -417,8 +420,8 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # For example, the key ``p count`` counts the names p_1, p_2, ... This key contains a space, so it
-            # differs from all names.
+            # For example, the entry ``p count`` counts the names p_1, p_2, ... The key of this entry contains
+            # a space, so the key is never a name.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:

@@ -2,8 +2,8 @@
 
 Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Here h is the step size, and xi
 is an element of the Lie algebra. Each exponential contains Stumpff functions of the squared norm of its
-argument. The squared norms of h xi/2 and -h xi/2 are equal, but their expressions differ. This module expands
-both expressions as polynomials and finds that the polynomials are equal. Equal arguments need only one call.
+argument. The squared norms of h xi/2 and -h xi/2 are equal, but the expressions for these norms differ. This
+module expands both expressions. The resulting polynomials are equal. Equal arguments need only one call.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""Arguments of Stumpff functions are compared only if they have at most this number of nodes.
+"""Arguments of Stumpff functions with more than LONGEST nodes are not compared.
 
 Equal arguments occur in implicit stages. In the methods of the gallery, these arguments have 12 to 42 nodes.
 Arguments in explicit stages have hundreds or thousands of nodes.
 
-Limits of 64, 128 and 256 give the same kernels for nine methods of the gallery. The limit 32 changes only one
-of these kernels: the step of vcf:cf4 on dipole has 286 operations with the limit 32, and 301 with 64.
+For nine methods of the gallery, the limits 64, 128 and 256 give the same kernels. With the limit 32, only one
+of the nine kernels differs: the step of vcf:cf4 on dipole has 286 operations, and 301 with the limit 64.
 """
 
 
@@ -38,8 +38,9 @@ class SharedArguments(ExprDomain):
         self.shared: dict[int, Expr] = {}
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the expression of a function call. Equal arguments of a Stumpff function give the same
-        expression.
+        """Return the expression of a function call.
+
+        Two calls of a Stumpff function with equal arguments give one expression.
         """
         # Only arguments of Stumpff functions are compared, because these functions are expensive.
         if function.startswith("stumpff"):
@@ -62,10 +63,10 @@ class SharedArguments(ExprDomain):
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # A polynomial is a dict, which cannot be a key. Therefore polynomials are compared one by one.
+        # A polynomial is a dict, and a dict cannot be a key. Therefore polynomials are compared one by one.
         for known, first in self.arguments:
             if known == polynomial:
                 return first
-        # The polynomial is new. Later arguments with an equal polynomial are replaced by this argument.
+        # The polynomial is new. ``argument`` will replace later arguments with an equal polynomial.
         self.arguments.append((polynomial, argument))
         return argument

@@ -28,7 +28,7 @@ linear combinations that :mod:`codegen.kernel.site_plan` selects for storage.
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
-"""Operations that evaluate formulas of the scene. These formulas read the states of neighbours."""
+"""Operations that evaluate formulas of the scene. The formulas may read the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Content:
     - ``unknowns`` are the unknowns u of equations u = g(u). In fixed-point iteration, the sweep replaces u by
       g(u).
     - ``measured`` is empty or contains two rows. For each site, the first row stores the largest change
-      among the unknowns of the site. The second row stores the largest absolute value of these unknowns.
+      of an unknown at the site. The second row stores the largest absolute value of an unknown at the site.
     """
 
     about: str
@@ -80,7 +80,7 @@ class Execution:
         self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
-        # These names are in use, so computed values get other names.
+        # The names in ``taken`` are in use, so computed values get other names.
         self.taken = {*problem.symbols, *problem.runtime, "h", TIME, *totals.values()}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}
@@ -131,13 +131,13 @@ class Execution:
         if isinstance(operation, Energy):
             return (values[0],)
         f = tuple(values)
-        # On T*G, ``f`` contains two vectors of the same length.
+        # On T*G, ``f`` contains two vectors with ``dim`` components each.
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)
 
     def _roots(self, operation: Operation) -> list[Expr]:
         """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
         if isinstance(operation, Energy):
-            # This formula is the contribution of one site to the energy of the lattice.
+            # The formula returned here is the contribution of one site to the energy of the lattice.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
         # The coordinates of the point are symbols, so the results are formulas.
         if isinstance(operation, Differential):
@@ -182,7 +182,7 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return symbols for a variable at a neighbour, and record the loads of these symbols.
+        """Return symbols for a variable at a neighbour, and record a load for each symbol.
 
         If the neighbour lies outside the lattice, the values ``ghosts`` replace the variable.
         """

@@ -62,8 +62,8 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
     flows: list[SiteFlow] = []
     for flow, duration in listed:
         assert isinstance(flow, FlowOfPart)
-        # One sweep computes all flows of a part. These flows differ only in their duration and in their
-        # colour (even or odd pairs of sites).
+        # All flows of one part use the same sweep. The flows differ only in duration and in colour (even or
+        # odd pairs of sites).
         if flow.part not in index:
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
@@ -74,7 +74,7 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     """Return the sweep for the flow of one part of the vector field.
 
-    In the kernel of this sweep, h is the duration of the flow.
+    In the kernel of this sweep, the symbol h is the duration of the flow, and not the step size.
     """
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
@@ -83,7 +83,7 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
-        # For each site, ``roots`` contains the ``dim`` components of an element of the Lie algebra. This
+        # For each site, ``roots`` contains the ``dim`` components of an element of the Lie algebra. The
         # element is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))

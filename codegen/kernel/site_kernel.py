@@ -1,8 +1,8 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 The field reads the states of neighbours. Therefore one sweep stores the points at which the field is
-evaluated, and the next sweep evaluates the field. Sums of vectors are computed again
-in each sweep that needs them. A sum is stored only if this saves the storage of one of its terms.
+evaluated, and the next sweep evaluates the field. Each sweep that needs a sum of vectors
+computes the sum again. A sum is stored only if one of its terms then needs no storage.
 """
 
 from __future__ import annotations

@@ -86,7 +86,8 @@ class Linearisation:
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
-                    # The derivative of u is the unit matrix. It occurs only in the block of the site itself.
+                    # The derivative of u is the unit matrix. The unit matrix occurs only in the block of the
+                    # site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
@@ -180,8 +181,8 @@ class Linearisation:
                     # If the neighbour exists (``exists`` is 1), the result is the value x of the neighbour.
                     # Outside the lattice (``exists`` is 0), the result is the ghost g.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # The formulas of the field contain symbols for the coordinates of neighbour k. These symbols
-                # get the values of the stage at this neighbour.
+                # In the formulas of the field, the symbols for the coordinates of neighbour k get the
+                # values of the stage at neighbour k.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

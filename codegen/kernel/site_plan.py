@@ -3,7 +3,7 @@
 If the field reads a value at neighbours, one sweep stores the value at all sites. A later sweep evaluates the
 field. For a sum over all sites, one sweep stores the term of each site, and later sweeps read the sum.
 
-An implicit method solves equations u = g(u) by iteration, and each iteration executes the same sweeps. The
+An implicit method solves equations u = g(u) by iteration. Every iteration executes the same sweeps. The
 value g(u) is called the image of the unknown u. In fixed-point iteration, the last sweep of an iteration
 replaces u by g(u).
 """
@@ -149,8 +149,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # The Newton matrix has three square blocks for each site. All systems of equations use the same rows,
-        # because the systems are solved one after the other.
+        # The Newton matrix has three square blocks for each site. The systems of equations are solved one
+        # after the other, so the matrices of all systems use the same rows.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -214,8 +214,8 @@ class Planner:
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
-            # One sweep stores the terms of all sites. The sum is known after this sweep, so only later sweeps
-            # can read it.
+            # One sweep stores the terms of all sites. The sum is known after this sweep. Therefore only later
+            # sweeps can read the sum.
             ((target,), (term,)) = assign.targets, assign.args
             self.sweep_of[target] = max(least, self.sweep_of[term]) + 1
             self.totals[target] = assign
@@ -238,9 +238,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the linear combinations of vectors that are stored in place of one of their terms.
 
-        One sweep must compute both the linear combination and the term, and nothing else may read the term.
-        Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the Lie algebra
-        for each site. In programs with implicit equations, no linear combinations are stored.
+        The sweep that computes the linear combination must also compute the term. Only the linear combination
+        may read the term. Therefore a 2N scheme (a low-storage Runge-Kutta method) stores only one element of
+        the Lie algebra for each site. In programs with implicit equations, no linear combinations are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -285,13 +285,13 @@ class Planner:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # Iterations read this variable but do not compute it. Its rows must not be overwritten before
-                # the last iteration ends.
+                # Iterations read ``var`` but do not compute it. Therefore the rows of ``var`` must not be
+                # overwritten before the last iteration ends.
                 used[var] = max(used[var], block.last + 1)
         return used
 
     def _store(self, needs: list[_Needs]) -> int:
-        """Assign rows of the workspace to all stored variables, and return the number of these rows."""
+        """Assign rows of the workspace to all stored variables. Return the number of workspace rows."""
         for var in self._given():
             self.rows[var] = tuple(Row(STATE, k) for k in self._numbers(var.name))
         used = self._last_uses(needs)
@@ -304,7 +304,7 @@ class Planner:
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
-            # A set has no fixed order. Sorted rows give every compilation the same workspace layout.
+            # A set has no fixed order. Sorting the rows gives the same workspace layout in every compilation.
             free = sorted({*free, *ended})
             # The sweep before the first iteration stores the starting values, so it reserves the rows of the
             # unknowns.

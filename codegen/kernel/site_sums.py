@@ -1,8 +1,8 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
-The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. Here g
-approximates the differential of the energy, and eta is the displacement of a step. The energies before and
-after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. The difference of
+The discrete differential of the whole lattice is D = g + (e/|eta|^2) eta with e = H1 - H0 - <g, eta>. The
+covector g approximates the differential of the energy, and eta is the displacement of a step. The energies
+before and after the step are H0 and H1. The numbers e and |eta|^2 are sums over all sites. The difference of
 the total energies would have a large rounding error. Therefore e is computed as a sum of the small terms of
 the sites.
 

@@ -52,7 +52,7 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
     """Return ``kernel`` with the Taylor coefficients of the solution.
 
-    Then a run can choose its step size from these coefficients.
+    A run can choose its step size from the Taylor coefficients.
     """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
@@ -125,7 +125,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that creates new names, which the kernel does not use."""
+    """Return a function that creates names. The kernel does not use these names."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:

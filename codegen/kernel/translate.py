@@ -1,4 +1,4 @@
-"""Translates a step program to a kernel, which consists of scalar assignments and loops.
+"""Translates a step program to a kernel. A kernel consists of scalar assignments and loops.
 
 The program is executed symbolically: the value of each variable becomes a tuple of expressions. A block of
 implicit equations becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
@@ -48,10 +48,10 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Four ways to treat the critical path, which is the longest chain of dependent operations.
+"""Four ways to treat the critical path (the longest chain of dependent operations).
 
 - AS_WRITTEN leaves the operations unchanged.
-- COMBINED first multiplies those factors that are constant in a run, such as the step size.
+- COMBINED first multiplies the factors that are constant in a run (for example, the step size).
 - ORDERED sorts the assignments by the estimated time at which each value is available.
 - SHORTENED does what COMBINED and ORDERED do, and rewrites the longest chains
   (:mod:`codegen.kernel.critical_path`).
@@ -73,7 +73,7 @@ def to_kernel(
     - ``solvers`` maps labels of blocks of implicit equations to :data:`codegen.ir.kernel.NEWTON` or
       SIMPLIFIED_NEWTON. All other blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel computes the variation of the new state, and not the new state
-      itself. Such a kernel is ``Kernel.vary`` of another kernel.
+      itself. This kernel then becomes the attribute ``vary`` of another kernel.
     - ``chains`` is AS_WRITTEN, COMBINED, ORDERED or SHORTENED (:data:`AS_WRITTEN`). If the program has
       implicit equations, ``chains`` must be AS_WRITTEN.
     - ``whole`` matters only if the program uses the body momentum and the emitted code uses the space
@@ -93,7 +93,7 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    - ``env`` maps each variable of the program to its value, which consists of expressions.
+    - ``env`` maps each variable of the program to the expressions of its value.
     - ``hints`` maps the ids of expressions to preferred names in emitted code.
     - ``taken`` contains all names that are already in use in emitted code.
     """
@@ -157,14 +157,14 @@ class _Translation:
                 "without closed forms no code can be emitted",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # ``gathered`` combines numeric constants in the results. It does not rewrite the arguments,
-            # because other expressions also use them.
+            # ``gathered`` combines numeric constants in the results. Other expressions also use the
+            # arguments, so ``gathered`` does not rewrite the arguments.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         # An operation with a time argument may read run-time inputs. An outlined function reads only its
         # arguments, so it must not contain such an operation.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # ``blocks`` does not yet contain the current block, so the length is the index of this block.
+        # The current block is added to ``blocks`` later, so its index is the length of ``blocks``.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -193,8 +193,8 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # Newton's method can solve r(u) = 0 in place of u = g(u). But :func:`_varied` needs the values g(u),
-        # which are the images of the block.
+        # Newton's method can solve r(u) = 0 in place of u = g(u). But :func:`_varied` needs the images
+        # g(u) of the block.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
         # A block with residuals already contains Newton's matrix, because ``compared`` computes the matrix.
@@ -236,8 +236,8 @@ class _Translation:
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # ``kernel`` subtracts the embedded solution from the new state. Therefore the loop converts both
-        # states to the same frame.
+        # ``kernel`` subtracts the embedded solution from the new state. Therefore the loop converts the
+        # embedded solution and the new state to the same frame.
         for embedded in (False, True):
             # If the program has no embedded solution, the second ``values`` is empty.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
@@ -258,8 +258,8 @@ class _Translation:
         The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # The equations for the variations of a block contain the solution of this block. Therefore they
-        # follow the block.
+        # The equations for the variations of a block contain the solution of this block. Therefore
+        # these equations follow the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
@@ -280,7 +280,7 @@ class _Translation:
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
         # The error estimate is the difference between the new state and the embedded solution.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # One call orders outputs and error estimates, so they can share assignments.
+        # One call orders outputs and error estimates, so outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
         # In a splitting method, LEAD is the duration of the last flow of a step. ELAPSED is the duration of
         # a run.
@@ -299,7 +299,7 @@ class _Translation:
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body and the outputs of a kernel that computes ``ends``, and its outlined functions.
 
-        Computations are outlined only if this makes the kernel much shorter.
+        Computations are outlined only if outlining makes the kernel much shorter.
         """
         # The names in ``before`` were taken before ``schedule`` was computed. Outlining discards
         # ``schedule``, so only the names in ``before`` remain taken.
@@ -351,8 +351,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # ``kept`` contains values for statements after a loop. A value that no expression in ``flat`` reads is
-    # removed, so that outlining creates no function for it.
+    # ``kept`` contains values for statements after a loop. If no expression in ``flat`` reads a value, the
+    # value is removed. Otherwise outlining could create a function for it.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # The expressions of all blocks are in one list. Therefore outlining also finds computations that are
@@ -395,10 +395,10 @@ def _outlined(
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
     """Return the linear equations for the variations of a block's unknowns.
 
-    The symbols of these variations are added to ``seeds``.
+    This function adds the symbols of the variations to ``seeds``.
     """
-    # Differentiating u = g(u) gives a linear equation for the variation du. The equation also contains the
-    # variations of the old state and of the unknowns of earlier blocks, which are known.
+    # Differentiating u = g(u) gives a linear equation for the variation du. The equation also contains
+    # known variations: those of the old state and of the unknowns of earlier blocks.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the convergence does not depend on the starting values. The iteration

@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). For all
-other values, such as momenta, each component is varied independently. For example, the Jacobian is a 6 x 6
-matrix on T*SO(3). On the sphere it is a 3 x 3 matrix, because a point of the sphere has three components.
+A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). In all
+other values (for example, momenta) each component is varied independently. On T*SO(3) the Jacobian is a 6 x 6
+matrix. On the sphere it is a 3 x 3 matrix, because a point of the sphere has three components.
 """
 
 from __future__ import annotations

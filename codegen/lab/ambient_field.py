@@ -22,7 +22,7 @@ FUNCTIONS = of_scalars(arb)
 def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side of the differential equation of a scene, as a function of (state, t).
 
-    The function returns a tuple of Arb balls, which are numbers with an error radius. The parameters of the
+    The returned function gives a tuple of Arb balls (numbers with an error radius). The parameters of the
     scene have their default values. Constants are rounded to the working precision at the time of the call.
     """
     return velocity(scene).python(ball, FUNCTIONS)

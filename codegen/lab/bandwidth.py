@@ -5,11 +5,11 @@ cache. Therefore each sweep reads and writes main memory. The measurement counts
 of a step read and write (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
 
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
-benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
-size. Each number that a loop reads or writes is counted once. Before the processor writes to a cache line, it
-reads this line. This read is not counted, so for the triad the count omits a quarter of the memory traffic.
-The count omits less if a loop reads more than two numbers for each number that it writes. Therefore a step
-can have a higher counted bandwidth than the triad.
+benchmark (McCalpin 1995). The step and the triad are compiled with the same flags, and run on arrays of the
+same total size. Each number that a loop reads or writes is counted once. Before the processor writes to a
+cache line, it reads this line. The additional read is not counted. Therefore the count omits a quarter of the
+memory traffic of the triad. If a loop reads more than two numbers for each number that it writes, the count
+omits a smaller part. For this reason, the counted bandwidth of a step can exceed that of the triad.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ FREE_SHARE = 8
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """Assumed sizes of the last-level cache and of the free memory in bytes.
 
-They are used if the operating system does not state the true sizes.
+If the operating system does not state a true size, the assumed size is used.
 """
 
 FEW_SITES = 4096
@@ -290,7 +290,7 @@ class _Runs:
     def best(self, side: int) -> float:
         """Return the CPU time in seconds for one site and one step in the fastest of several runs.
 
-        The number of steps is chosen so that a run takes at least :data:`RESOLVED` seconds.
+        The number of steps is doubled until a run takes at least :data:`RESOLVED` seconds or fails.
         """
         steps, sites = 1, side**self.dimension
         status, pace = self.timed(side, steps, 2)
@@ -339,8 +339,8 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 def _triad() -> Callable[[int], float]:
     """Compile the triad loop ``a[i] = b[i] + s * c[i]``.
 
-    Return a function that measures the bandwidth of the loop in GB/s. The argument of this function is the
-    total size of the three arrays in bytes.
+    Return a function that measures the bandwidth of the loop in GB/s. The argument of the returned function
+    is the total size of the three arrays in bytes.
     """
     import numpy as np
     from cffi import FFI

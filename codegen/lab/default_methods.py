@@ -48,8 +48,8 @@ omits the method.
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The default methods that the command ``report`` runs with step-size control.
 
-A figure has only eight colours. REPORT_HAMILTONIANS needs seven of these colours. Therefore the report of a
-Hamiltonian scene uses only the first method of this list.
+A figure has only eight colours. The methods of REPORT_HAMILTONIANS need seven colours. Therefore the report
+of a Hamiltonian scene uses only the first method of REPORT_ADAPTIVE.
 """
 
 README_METHODS = {

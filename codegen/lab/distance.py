@@ -1,6 +1,6 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-A state consists of one or several components, such as a group element and a momentum. For each
+A state consists of one or several components (for example, a group element and a momentum). For each
 component, the norm of the difference from the reference is computed. The error norm is the sum of the norms.
 For group elements given by square matrices, the spectral norm is used. For all other components, the
 Euclidean norm is used.

@@ -28,9 +28,9 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A recommended method. Its error is at most the required error.
+    """A recommended method. The error of the method is at most the required error.
 
-    - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
+    - ``form``: the form of the equations (for example, ``quaternion``), as in the option ``--form``.
     - ``adaptive``: True for a method with step-size control, and False for a method with equal steps.
     - ``h``: the step size of a method with equal steps, and otherwise None.
     - ``tolerance``: the relative and absolute tolerance of a method with step-size control, and otherwise
@@ -113,8 +113,8 @@ def recommend(
 ) -> Advice:
     """Search the library for the fastest method whose error at the end of the time span is at most ``error``.
 
-    The arguments are the same as for the command ``orderconds recommend``. ``needs`` lists the required
-    properties of the method, such as ``"symplectic"``. For a wrong argument, SceneError, UnknownName or
+    The command ``orderconds recommend`` has the same arguments. ``needs`` lists the required properties
+    of the method (for example, ``"symplectic"``). For a wrong argument, SceneError, UnknownName or
     InputError is raised.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
