@@ -61,7 +61,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 class _Reader:
     """Converts one formula. Each subexpression is converted only once, even if it occurs several times.
 
-    During the conversion of a branch of a Piecewise formula, ``guard`` is an expression. Its value is 1 if
+    During the conversion of a branch of a Piecewise formula, ``guard`` is an expression with the value 1 if
     the branch is selected, and -1 otherwise. Outside of Piecewise formulas ``guard`` is None.
     """
 
@@ -147,7 +147,7 @@ class _Reader:
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Convert the call ``e`` of a function in :data:`SELECTIONS`, such as Max."""
+        """Convert the call ``e`` of one of the functions (for example Max) in :data:`SELECTIONS`."""
         space = self.space
         match name:
             case "Abs":
@@ -243,8 +243,8 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
-    # The order of the arguments in sympy depends on hashes, which differ between processes. Sorting makes the
-    # order reproducible.
+    # In sympy the order of the arguments depends on hashes. The hashes of one expression differ between
+    # processes. Sorting makes the order reproducible.
     return sorted(e.args, key=sympy.default_sort_key)
 
 

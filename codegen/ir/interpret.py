@@ -1,7 +1,7 @@
 """The interpreter of step programs (:mod:`codegen.ir.program`).
 
-It computes one step with the scalars of any domain, for example doubles, numbers with many digits, or power
-series. Tests compare the results of emitted code with the results of the interpreter.
+The interpreter computes one step with the scalars of any domain, for example doubles, numbers with many
+digits, or power series. Tests compare the results of emitted code with the results of the interpreter.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Env = dict[Var, Value]
 """A table from the variables of a program to their values."""
 
 State = dict[str, Value]
-"""A table from the names of the inputs or outputs of a program, such as ``q``, to their values."""
+"""A table from the names of inputs or outputs of a program (for example ``q``) to values."""
 
 # ``TO_BODY`` converts the momentum mu in the space frame to the body frame. The momentum in the body frame is
 # Ad*_q mu, where q is the configuration. ``TO_SPACE`` is the inverse conversion.
@@ -57,8 +57,8 @@ def interpret(
     - ``near`` contains one list of scalars for each block. If ``near`` is given, only Newton's method is
       used, and it begins at these scalars. After the step ``near`` contains the solutions.
 
-    If ``domain`` has a method ``computed``, the result of ``computed(name, x)`` replaces each computed value
-    x. Here ``name`` is the name of the variable with the value x.
+    If ``domain`` has a method ``computed``, each computed value x is replaced by ``computed(name, x)``, where
+    ``name`` is the name of the variable with the value x.
 
     :class:`NotConverged` is raised if the iteration of a block does not converge. The message names the
     block.
@@ -88,8 +88,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue. Its first list contains the initial values for this block. This list is
-            # removed, and the solution of the block is appended to ``near``.
+            # ``near`` is a queue. The first list in the queue contains the initial values for this block. The
+            # first list is removed, and the solution of the block is appended.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -183,7 +183,7 @@ def _iterate(
         # If ``expected`` contains a value of the unknown, the iteration begins at this value. Otherwise the
         # iteration begins at the value of the variable ``start``.
         env[unknown] = expected.get(unknown, env[start])
-    # ``size`` is the size of the last change of the unknowns. It is None before the first change.
+    # ``size`` is the size of the last change of the unknowns, or None before the first change.
     size: Scalar = None
     for _ in range(limit):
         for assign in block.body:
@@ -260,7 +260,7 @@ def _correct(
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # This call writes the solution, and the values computed from it, to ``env``.
+            # This call writes the solution and all values computed from the solution to ``env``.
             images(now)
             if sharp:
                 return now
@@ -292,7 +292,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         if not rows[k][k]:
             raise NotConverged("the matrix of Newton's method is singular")
         for i in range(k + 1, n):
-            # The entries below the pivot become zero up to rounding. They are not read again.
+            # The entries below the pivot become zero up to rounding, and are not read again.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []

@@ -1,5 +1,5 @@
-"""Exact Jacobians of expressions by elimination of vertices. This method usually needs fewer operations than
-a separate computation of each column of the Jacobian.
+"""Exact Jacobians of expressions by elimination of vertices. The elimination usually needs fewer operations
+than a separate computation of each column of the Jacobian.
 
 The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
 uses the argument. The label of the edge is the partial derivative of the node with respect to the argument.

@@ -1,4 +1,4 @@
-"""Kernels. A kernel contains the statements of one step. It is translated to C or Python code.
+"""Kernels. A kernel contains the statements of one step, and is translated to C or Python code.
 
 The statements are scalar assignments and loops. A kernel has no conditional statements. Each name is the
 target of only one assignment.
@@ -59,8 +59,8 @@ UNIT = 2.0**-53
 LOST = 2.0**-47
 """A relative bound for rounding errors of the state (:mod:`codegen.run.stopping`).
 
-The stopping rule computes h times the change of the unknowns. This product counts as a rounding error if, for
-every part of the state, it is at most ``LOST`` times the largest number in the part.
+The stopping rule computes h times the change of the unknowns. This product counts as a rounding error if the
+product is at most ``LOST`` times the largest number in each part of the state.
 """
 
 VARIATION = "variation"
@@ -69,7 +69,7 @@ to the initial state in one direction.
 """
 
 VARIED = "the variation of "
-"""If a loop solves equations for a variation, its label begins with this text."""
+"""The beginning of the label of a loop that solves equations for a variation."""
 
 
 @dataclass(frozen=True)
@@ -85,13 +85,13 @@ class Newton:
     """Newton's method for the equations of a loop (:mod:`codegen.run.sweeps`).
 
     ``body`` computes the entries of ``matrix``. The method has three forms:
-    - Newton: the equations are u = g(u), and the matrix is 1 - g'(u). Later sweeps and steps use
-      the same matrix, until the iteration converges too slowly.
+    - Newton: the equations are u = g(u), and the matrix is 1 - g'(u). The matrix is kept in later sweeps and
+      steps, until the iteration converges too slowly.
     - Simplified Newton (``leading`` is true): the equations are u = g(u). The matrix is 1 - g'(u), expanded
       to first order in h. Each step computes and inverts the matrix.
     - Residuals (``residuals`` is true): the equations are r(u) = 0, and the ``images`` of the loop are the
-      residuals r(u). The matrix is -r'(u), expanded to first order in h. Its inverse is used for
-      :attr:`period` steps.
+      residuals r(u). The matrix is -r'(u), expanded to first order in h. One inverse of
+      this matrix is used for :attr:`period` steps.
 
     If ``inverted`` is true, ``matrix`` is the inverse of the matrix above. ``changes`` are the names of the
     variables for the changes of the unknowns in a sweep.
@@ -139,7 +139,7 @@ class Loop:
     in two main cases:
     - The change no longer decreases, and it is at most ``tolerance`` times the largest unknown.
     - The predicted next change is at rounding level, and the change is at most ``close`` times the largest
-      unknown. For equations r(u) = 0, the bounds of this case are different.
+      unknown. For equations r(u) = 0, the bounds of the second case are different.
 
     ``only_unknowns_read`` is true if the code after the loop uses no values of ``body``.
     """
@@ -207,8 +207,8 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # If the solution u1 of the last step is the first value, its error is the change of the unknowns in the
-    # step. An extrapolation is useful only if its error is smaller than this change.
+    # If the first value is the solution u1 of the last step, the error of the first value is the change of
+    # the unknowns in the step. An extrapolation with a larger error is useless.
     ROUGH: ClassVar[float] = 0.5
     # A continuation that succeeds tries far fewer steps.
     TRIES: ClassVar[int] = 100
@@ -232,10 +232,10 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The deferred flows of a splitting method, which are applied only once in a run of several steps.
+    """The deferred flows of a splitting method. They are applied only once in a run of several steps.
 
-    A run has at most :data:`LONGEST` steps. It calls ``begin``, then the kernel of the step once for each
-    step, and then ``finish``.
+    A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
+    each step, and then ``finish``.
 
     The symbol :data:`LEAD` is the duration of the last flow of the kernel. In the last step of a run, this
     duration is h times the number ``last``. In all other steps the duration is h times the number ``later``.
@@ -307,7 +307,8 @@ class Expansion:
 
     With ``following``, a loop over the order n computes the coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). The kernel ``coefficients`` is called once before the loop.
-    Its first outputs are constants of the loop, and its other outputs are the coefficients of order 1.
+    The first outputs of this kernel are constants of the loop. The other outputs are the coefficients of
+    order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
     The loop computes ``sums`` inner sums, one for each product. The outputs of the kernel ``following`` are
@@ -344,9 +345,10 @@ class Continuous:
 class Observed:
     """The properties of the emitted function that integrates to a given end time.
 
-    This function writes the states at given output times. It also finds the zeros of event functions that the
-    caller supplies. ``events`` is the number of event functions. The ``extension`` (dense output) computes
-    the states at output times. If ``extension`` is None, steps are shortened to end at the output times.
+    The emitted function writes the states at given output times. It also finds the zeros of event functions
+    that the caller supplies. ``events`` is the number of event functions. The ``extension`` (dense output)
+    computes the states at output times. If ``extension`` is None, steps are shortened to end at the output
+    times.
     """
 
     events: int = 0
@@ -355,7 +357,7 @@ class Observed:
 
 @dataclass(frozen=True)
 class Function:
-    """A function that a kernel calls in several places. It executes ``body`` and returns ``outputs``.
+    """A function that a kernel calls in several places. A call executes ``body`` and returns ``outputs``.
 
     In expressions, ``NAME.k`` denotes output k of the function ``NAME``, counted from 0. ``about`` describes
     the function in words.
@@ -375,12 +377,12 @@ class Kernel:
     - ``outputs`` are the scalars of the new state.
     - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` contains the times
       at which these functions are evaluated.
-    - ``vary`` is the kernel of the variational equation. It computes the variation (a derivative of the
-      state) after the step.
+    - ``vary`` is the kernel of the variational equation. This kernel computes the variation (a derivative
+      of the state) after the step.
     - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum. It converts
-      between the two momenta.
+    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
+      ``carried`` contains the conversions between the two momenta.
     - ``expansion`` is the Taylor polynomial of a Taylor method. For other methods, ``estimate`` is the error
       estimate. Step-size control needs ``expansion`` or ``estimate``.
     - ``batch`` is true if emitted code also contains a function that steps many independent systems.

@@ -1,6 +1,6 @@
-"""A step of a large linear problem y' = A(t) y. It uses only products of matrices and vectors.
+"""A step of a large linear problem y' = A(t) y, computed only with products of matrices and vectors.
 
-The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials to the state. Each
+The step evaluates the matrices a_i = h A(t_i) at the nodes t_i, and applies exponentials to the state. Each
 exponent is a letter plus multiples of commutators. A letter is a linear combination of the a_i. A commutator
 [X, Y] is applied to a vector v as X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
 """
@@ -70,7 +70,7 @@ class TimeMatrix:
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
-            # A tuple contains numbers, which are not expressions.
+            # An entry is an expression or a tuple of numbers. Numbers are not expressions.
             yield from (e for e in entries if not isinstance(e, tuple))
 
 

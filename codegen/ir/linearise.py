@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in the step size h, for simplified Newton iterations.
 
 An expression and its derivatives with respect to the unknowns are expanded as v_0 + v_1 h. Higher powers of h
-are never computed, so the error of the Jacobian is O(h^2). A Newton iteration with this Jacobian multiplies
-the error of the unknowns by O(h^2).
+are never computed, so the error of the Jacobian is O(h^2). Each sweep of Newton's method with
+this Jacobian multiplies the error of the unknowns by O(h^2).
 """
 
 from __future__ import annotations
@@ -224,7 +224,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)
     else:
-        # The function is sin or cos. Its second derivative is the negative of its value.
+        # The function f is sin or cos, so f'' = -f.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
@@ -236,5 +236,5 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
-    # Derivatives that are zero are removed, so that later products and sums have fewer terms.
+    # Derivatives that are zero are removed. Later products and sums then have fewer terms.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -123,8 +123,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Each pair (x, y) contributes row i of x times column j of y to entry (i, j). This is a sum
-                # of products of two numbers. ``merged`` yields the two numbers of each product.
+                # Entry (i, j) is the sum of row i of x times column j of y over the pairs (x, y), that
+                # is, a sum of products of two numbers. ``merged`` yields the factors of each product.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -142,14 +142,15 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     """Return the Taylor polynomial of the exponential, evaluated at ``b1``. Here ``b1`` is a jet (a matrix
     with its derivatives).
 
-    ``norm`` is the norm of the matrix. It determines the degree (:func:`largest_norms`).
+    ``norm`` is the norm of the matrix. This norm determines the degree of the polynomial
+    (:func:`largest_norms`).
     """
     # Let A be the argument ``b1``, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G,
     # the terms of degrees 4 g to 4 g + 3 form group g. Each group is the product of A^(4 g) and a polynomial
     # of degree 3. The term of degree 4 G belongs to no group.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
-    # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. They are computed once for all groups of terms.
+    # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. These powers are computed once for all groups.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
     # In Horner's rule, each pass of the loop multiplies ``total`` by A^4 and adds a polynomial of degree 3.
@@ -159,7 +160,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         k = 4 * group
         if group < groups - 1:
             total = product(n, level, total, b4)
-        # To reduce rounding errors, the largest terms are added last. These are the terms of low degree.
+        # The terms of low degree are the largest terms. They are added last to reduce rounding errors.
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
@@ -203,7 +204,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     # ``error`` is a bound of the error of the first matrix of ``total``, here before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # Both ``growth`` and the Frobenius norm of the first matrix are bounds of its spectral norm.
+        # The spectral norm of the first matrix is at most ``growth``, and at most the Frobenius norm.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # The norm of the squared matrix is at most the square of ``growth``.

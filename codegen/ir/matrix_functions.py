@@ -40,13 +40,13 @@ class MatrixExponential(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of arguments, which is also the number of results."""
+        """The number of arguments. The number of results is equal."""
         return (1 << self.level) * self.n**2
 
     @property
     def operations(self) -> dict[str, int]:
         """Approximate numbers of additions and multiplications in one call. Squarings are not counted."""
-        # The numbers are for a Taylor polynomial of degree 12, which requires five products of jets.
+        # The numbers are for a Taylor polynomial of degree 12. It requires five products of jets.
         # A product of two jets consists of 3^``level`` products of matrices.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
@@ -68,7 +68,7 @@ class MatrixExponential(VectorFunction):
         A is the jet ``args`` (a matrix with its derivatives). The zeros in A determine the number of terms.
         """
         # ``pattern`` contains 0 for each entry of A that is always zero, and 1 for each other entry. If an
-        # entry of the k-th power of ``pattern`` is zero, the same entry of A^k is always zero.
+        # entry of the k-th power of ``pattern`` is zero, the entry of A^k in the same place is always zero.
         pattern = power = [int(not x.is_zero) for x in args]
         # If a power of the first matrix is zero, a power of the jet is zero. The reason is that a product of
         # more than ``level`` terms with a symbol d_k is zero (:mod:`codegen.ir.matrix_exponential`).
@@ -106,11 +106,11 @@ class MatrixExponential(VectorFunction):
         ``args`` contains A, followed by its derivatives. The matrix of the constant terms of A must be
         nilpotent.
         """
-        # A power of the jet is a sum of products of its terms. One term is the matrix C of the constant
-        # terms of A, with C^n = 0. Each other term contains h or one of the ``level`` symbols d_k
-        # (:mod:`codegen.ir.matrix_exponential`). In a non-zero product, at most ``ring.order`` factors
-        # contain h, at most ``level`` factors contain a d_k, and fewer than n successive factors are C. The
-        # number of factors is therefore less than ``longest``.
+        # A power of the jet is a sum of products of terms of the jet. One term of the jet is the matrix C of
+        # the constant terms of A. C is nilpotent, so C^n = 0. Each other term contains h or one of the
+        # ``level`` symbols d_k (:mod:`codegen.ir.matrix_exponential`). In a non-zero product, at most
+        # ``ring.order`` factors contain h, at most ``level`` factors contain a d_k, and fewer than n
+        # successive factors are C. The number of factors is therefore less than ``longest``.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -128,7 +128,7 @@ class MatrixInverse(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of arguments, which is also the number of results."""
+        """The number of arguments. The number of results is equal."""
         return self.n**2
 
     @property
@@ -147,7 +147,7 @@ class MatrixInverse(VectorFunction):
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None, because emitted code computes the inverse by a call of this function."""
+        """Return None: an inverse is never replaced by scalar formulas. Emitted code calls a function."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:

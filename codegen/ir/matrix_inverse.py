@@ -22,15 +22,15 @@ def inverse(
     order: list[int] = []
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # A pivot is accepted only if its size is greater than 0. This test rejects a NaN, too.
+        # The matrix counts as singular if the size of the pivot is 0 or a NaN.
         if not size(rows[pivot][k]) > 0:
             return None
         order.append(pivot)
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Elimination turns column k of the matrix into a unit vector, which is not stored. Column k of
-        # ``rows`` is used for a column of the inverse.
+        # Elimination turns column k of the matrix into a unit vector. The unit vector is not stored: column k
+        # of ``rows`` is used for a column of the inverse.
         rows[k][k] = factor
         for i in range(n):
             if i != k:

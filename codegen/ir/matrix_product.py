@@ -39,7 +39,7 @@ class BilinearFunction(VectorFunction):
         """
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of f(a, b), which is f(a', b) + f(a, b').
+        """Return the derivative f(a', b) + f(a, b') of f(a, b).
 
         ``args`` are the entries of a and b, and ``rates`` are the entries of their derivatives a' and b'.
         """

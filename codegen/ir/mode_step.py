@@ -79,7 +79,7 @@ class Multiplier:
     def of(cls, function: str, scale: Number) -> Multiplier:
         """Return the function named ``function``, applied to ``scale`` * z."""
         if scale.is_zero:
-            # At 0, the function :data:`POWER` has the value 0. The other functions have the value or limit 1.
+            # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
             # A multiple of z is stored as a coefficient and the factor z. All multiples of z thus have the
@@ -91,14 +91,14 @@ class Multiplier:
         total = dict(self.terms)
         for monomial, value in other.terms.items():
             total[monomial] = total[monomial] + value if monomial in total else value
-        # Terms with the coefficient zero are removed, so that equal polynomials have equal terms.
+        # Terms with the coefficient zero are removed. Equal polynomials therefore have equal terms.
         return Multiplier({m: x for m, x in total.items() if not x.is_zero})
 
     def __mul__(self, other: Multiplier) -> Multiplier:
         total = Multiplier()
         for a, x in self.terms.items():
             for b, y in other.terms.items():
-                # Two products may have the same monomial. The operator + adds their coefficients.
+                # If two products have the same monomial, the operator + adds the two coefficients.
                 total = total + Multiplier({_product(a, b): x * y})
         return total
 
@@ -158,7 +158,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     # An exponential with the exponent 0 is the factor 1 and is omitted.
     if not exponent.is_zero:
         powers[Factor(EXP, exponent)] = 1
-    # The factors are sorted, so that equal products are equal tuples.
+    # The factors are sorted. Equal products are therefore equal tuples.
     return tuple(sorted(powers.items(), key=lambda item: item[0].order))
 
 
@@ -212,13 +212,13 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Nonlinearity:
-    """The nonlinear part N(u). It is a sum of x-derivatives of functions f_j.
+    """The nonlinear part N(u), a sum of x-derivatives of functions f_j.
 
     - ``inner`` lists the x-derivatives of u that occur in the functions f_j. Each entry is a pair (order,
       name of the derivative). Order 0 is u itself.
     - ``outer`` lists the orders of the x-derivatives of f_1, f_2, ... in the sum.
-    - ``formulas`` computes the values of all f_j at one point x. Its inputs are the derivatives in ``inner``,
-      x, t and the parameters.
+    - ``formulas`` computes the values of all f_j at one point x. The kernel inputs are the derivatives in
+      ``inner``, x, t and the parameters.
     - ``kept`` is the fraction of the Fourier modes of N that the step uses. To avoid aliasing, the modes with
       the highest wave numbers are set to zero.
     """
@@ -257,7 +257,7 @@ class ModeStep:
     @property
     def complex(self) -> bool:
         """True if the linear operator L may have eigenvalues that are not real."""
-        # The kernel ``symbol`` computes the imaginary part of an eigenvalue only if it may be nonzero.
+        # If the imaginary part simplifies to 0, the kernel ``symbol`` has only one output.
         return len(self.symbol.outputs) > 1
 
     @property

@@ -1,11 +1,11 @@
-"""Simplification of expressions by the equations of a group, such as g^T g = 1.
+"""Simplification of expressions by the equations of a group, for example g^T g = 1 for orthogonal g.
 
 A relation is an equation between a product of two symbols and a sum. The expression is expanded as a
 polynomial. The variables of the polynomial are symbols, function calls and inverses. Each product that occurs
 in a relation is replaced by its sum. If g is orthogonal, for example, |g y|^2 becomes |y|^2.
 
-The result is called the normal form of the expression. It is not unique: two equal expressions may have
-different normal forms. The normal form may be longer than the expression.
+The result is called the normal form of the expression. The normal form is not unique: two equal expressions
+may have different normal forms. The normal form may be longer than the expression.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class NormalForms:
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return the simplified form of ``root``. It equals ``root`` if the relations hold.
+        """Return the simplified form of ``root``. The simplified form equals ``root`` if the relations hold.
 
         If a product in the expansion has too many terms, ``root`` itself is returned.
         """
@@ -129,8 +129,8 @@ class NormalForms:
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. If two variables occur equally often, the variable with
-        # the smaller node number is factored out.
+        # The variable that occurs in the most terms is factored out (Horner's rule in several variables). If
+        # two variables occur equally often, the variable with the smaller node number is factored out.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # If no variable occurs in two terms, factoring out saves no multiplication.
         if best < 0 or count[best] < 2:
@@ -185,7 +185,7 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Apply the relations to the products in a polynomial until no relation applies."""
         done: Polynomial = {}
-        # ``popitem`` removes the newest entry, so the order of the terms is the same in every run.
+        # ``popitem`` removes the newest entry. The order of the terms is therefore reproducible.
         waiting = dict(polynomial)
         while waiting:
             monomial, c = waiting.popitem()
@@ -226,7 +226,7 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
 def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:
     old = polynomial.get(monomial)
     value = c if old is None else old + c
-    # Terms with coefficient zero are removed, so that equal polynomials are equal dictionaries.
+    # Terms with coefficient zero are removed. Equal polynomials are therefore equal dictionaries.
     if value.is_zero:
         polynomial.pop(monomial, None)
     else:
