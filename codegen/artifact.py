@@ -46,8 +46,8 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write the files and the manifest into a folder, and return their paths.
 
-        A missing folder is created. An old module in the folder is replaced if it has the same name and the
-        same target. Other modules are not changed.
+        A missing folder is created. If the folder contains an old module with the name and the target of the
+        new module, the old module is replaced. Other modules are not changed.
 
         InputError is raised if the folder cannot be written to, or if the old module belongs to another scene
         or method. If the name of the old or the new module was chosen with the option ``--prefix``, the old

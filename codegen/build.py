@@ -30,9 +30,9 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers which mean that the user may not write to the cache.
+"""The error numbers for a cache that the user may not write to.
 
-If one of these errors occurs, a temporary folder is used in place of the cache.
+If writing to the cache gives one of these errors, a temporary folder is used in place of the cache.
 """
 
 
@@ -107,8 +107,9 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    If the cache contains an undamaged shared object for these files, nothing is compiled. If ``again`` is
-    true, the files are always compiled. ``seconds`` is the time limit for the C compiler.
+    If ``again`` is true, the files are always compiled. Otherwise nothing is compiled if the cache contains
+    an undamaged shared object for the same files, flags and compiler. ``seconds`` is the time limit for the C
+    compiler.
 
     CompilerMissing is raised if there is no C compiler. CompileError is raised if the compiler fails or
     exceeds the time limit. InputError is raised if the shared object cannot be written.
@@ -164,7 +165,8 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # The compiler writes its temporary files into ``directory``, which the caller removes.
+    # The compiler writes its temporary files into ``directory``. The caller of this function removes this
+    # folder.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)
@@ -197,7 +199,7 @@ def _finished(
     compiler are killed.
     """
     # A compiler starts other programs, such as an assembler. The compiler and these programs form a process
-    # group, so one signal kills all of them.
+    # group. One signal kills the whole group.
     with subprocess.Popen(
         command,
         cwd=directory,

@@ -1,4 +1,4 @@
-"""The cache: a folder of computed files, which are called entries.
+"""The cache: a folder of computed files. Each computed file is called an entry.
 
 For each entry, a second file contains the SHA-256 digest of the entry. If an entry is not a regular file,
 belongs to another user or has a wrong digest, the entry is computed again.
@@ -74,7 +74,7 @@ def _require_private(folder: Path) -> None:
 def temporary_directory(why: str) -> Path:
     """Return a temporary folder that is removed when this process ends.
 
-    ``why`` is the reason why the cache cannot be used. A warning with this reason is logged once.
+    ``why`` is the reason why the cache cannot be used. For each reason, one warning is logged.
     """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
@@ -124,8 +124,8 @@ def keep(entry: Path, content: bytes) -> None:
 def write_entries(contents: Mapping[Path, bytes]) -> None:
     """Write files atomically. Only the user can read the files.
 
-    ``contents`` maps the path of each file to its bytes. If a folder has one of these paths, the folder is
-    removed.
+    ``contents`` maps the path of each file to its bytes. If one of these paths is a folder, the folder is
+    removed first.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)

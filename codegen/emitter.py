@@ -132,7 +132,7 @@ def compile_method(
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
     - ``integrate``: add a run to a given end time. The run returns the states at given output times.
-    - ``events``: the number of event functions of this run.
+    - ``events``: the number of event functions of the run to a given end time.
     - ``dense``: compute the states at output times with the continuous extension of the tableau.
     - ``compensate``: use compensated summation. The state then contains correction terms.
     """
@@ -328,15 +328,15 @@ def emit(
     - ``family``: the family of a tableau, by default the family in which the order of the tableau is highest.
     - ``prefix``: the beginning of external names, by default the names of the scene and the method.
     - ``precision``: ``double`` or ``single``. ``frame``: the frame of momenta, ``space`` or ``body``.
-    - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or
-      ``auto``, which selects a fast and robust solver.
+    - ``solver``: the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point`` or
+      ``auto``. With ``auto``, the compiler selects a fast and robust solver.
     - ``form``: the key of a classical form, by default the form in which the scene states its equations.
     - ``adaptive``: add a run with step-size control.
     - ``batch``: add a C function for many systems (:meth:`codegen.integrator.Integrator.run_batch`).
     - ``integrate``: add a run to a given end time. With ``adaptive``, the run accepts bounds on step sizes.
     - ``compensate``: use compensated summation. The state then contains correction terms, initially zero.
 
-    The other arguments and most errors are those of :func:`compile_method`. UnknownName is raised for an
+    :func:`compile_method` describes the other arguments, and raises most errors. UnknownName is raised for an
     unknown target, and InputError for a prefix that is not a valid name in C.
     """
     known_target(target)
@@ -443,7 +443,7 @@ def emit_kernel(
     """Return a module for a kernel in a target language. ``about`` is added to the manifest of the module.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
-    target, and InputError is raised if the target or the precision is not available for this kernel.
+    target. InputError is raised if the target or the precision is not available for this kernel.
     """
     interface = Interface.of(kernel, prefix, precision)
     if kernel.batch and not known_target(target).batches:

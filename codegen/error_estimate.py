@@ -1,13 +1,13 @@
 """The order of an embedded error estimate, compared with the order of the local error.
 
 The estimate is the difference between the results of the method and of its embedded method. If both results
-have the same leading error term, the estimate has a higher order than the local error. Such an estimate is
-called blind.
+have the same leading error term, the estimate has a higher order than the local error of the method. An
+estimate of higher order is called blind.
 
-A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
-In these two cases, the order of the estimate and the order of the local error are measured. To measure them,
-the module computes very short steps of two sizes with 100 digits. The local error of a step of size h is
-approximated by the difference between this step and two steps of size h/2.
+A blind estimate is possible if the two methods have the same order, or if the field depends on the time
+alone. In these two cases, the order of the estimate and the order of the local error are measured. To measure
+these orders, the module computes very short steps of two sizes with 100 digits. The local error of a step of
+size h is approximated by the difference between this step and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ length of the time span of the scene, and p is the order of the method.
 ROUNDING = 1e-90
 """A bound for relative rounding errors in computations with DIGITS digits.
 
-If the entries of two states differ by at most ROUNDING times max(1, m), the states count as equal. Here m is
-the largest absolute value of an entry of the first state.
+Let m be the largest absolute value of an entry of the first of two states. If the entries of the two states
+differ by at most ROUNDING times max(1, m), the states count as equal.
 """
 
 RATIO = 8
@@ -89,9 +89,9 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
     """Return True if the error estimate of a method is blind.
 
     The estimate is the difference between a step of ``method`` and a step of ``embedded``. The estimate is
-    blind if it is zero, or if it has a higher order than the local error. Both orders are measured with very
-    short steps. If a step fails, or if the local error is zero, the result is False. ``order`` is the order
-    of ``method``.
+    blind if it is zero, or if it has a higher order than the local error. The orders of the estimate and of
+    the local error are measured with very short steps. If a step fails, or if the local error is zero, the
+    result is False. ``order`` is the order of ``method``.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))

@@ -108,5 +108,6 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. The list is filled up with the constant 1, which has no zero.
+        # Emitted code reads ``size`` values. The missing values are 1, because the constant
+        # function 1 has no zero.
         return values + [1.0] * (self.size - len(values))

@@ -17,10 +17,11 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     """Lock an existing folder during a ``with`` block. Yield True if the folder was locked, otherwise False.
 
     By default, the lock is exclusive: the folder can have no other lock. With ``shared=True``, the folder can
-    have several shared locks at the same time.
+    have other shared locks at the same time.
 
     If another lock on the folder prevents this lock, the function waits until the other lock ends. With
-    ``wait=False``, the function yields False instead. If the file system has no locks, it yields False.
+    ``wait=False``, the function yields False instead. If the file system has no locks, the
+    function also yields False.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

@@ -1,9 +1,9 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-Differentiation of the Hamiltonian gives a formula for the field. This formula contains many entries of the
-group element q. If the exact flow of a part is known, there is often a shorter formula for the field of this
-part. The sum of these shorter formulas over all parts is a second formula for the field of the Hamiltonian.
-If the second formula needs fewer operations than the first formula, it is used.
+Differentiation of the Hamiltonian gives a first formula for the field. The first formula contains many
+entries of the group element q. If the exact flow of a part is known, there is often a shorter formula for the
+field of this part. The sum of the formulas for all parts is a second formula for the field of the
+Hamiltonian. If the second formula needs fewer operations than the first formula, the second formula is used.
 """
 
 from __future__ import annotations

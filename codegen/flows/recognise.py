@@ -5,14 +5,14 @@ For each kind of flow, a function examines the formula of a part. There are thre
 - If the part has a flow of this kind, the function returns the part with its flow.
 - If the part has no flow of this kind, but another kind is possible, the function returns None.
 - If no kind of exact flow is possible, the function returns a part without a flow. The attribute ``reason``
-  of this part says why.
+  of the part says why it has no flow.
 
 These are the kinds of flow:
 
 - The flow of a potential V(q) is a kick.
 - On an abelian group such as R^n, the flow of a function of the momentum is a drift.
-- On R^n, the flow of a quadratic function of the position and the momentum is linear. The closed form is
-  known for some of these functions (:mod:`codegen.flows.linear`).
+- On R^n, the flow of a quadratic function of the position and the momentum is linear. The closed form of
+  the flow is known for some quadratic functions (:mod:`codegen.flows.linear`).
 - On non-abelian groups, a quadratic function of the momentum is split into terms. The flows of the terms are
   rotations (:mod:`codegen.flows.top`).
 """
@@ -41,7 +41,7 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
 )
 """The functions that look for the exact flow of a part of a Hamiltonian.
 
-The functions are called in this order until one of them returns a :class:`Part`.
+The functions are called in the order of the list until a function returns a :class:`Part`.
 """
 
 

@@ -21,7 +21,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The pairs of neighbours along an axis are divided into two sets with these names.
+"""The names of the two sets of pairs of neighbouring sites along an axis.
 
 A pair is "even" if the index of its first site is even. A pair is "odd" if the index of its first site is
 odd.
@@ -34,10 +34,10 @@ POTENTIAL = "potential"
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
-    """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
+    """The flow of one part of the field of a lattice. ``part`` is the index of the part in the scene.
 
     If the part couples neighbouring sites, only the pairs of one set interact. ``colour`` is the index of
-    this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
+    the name of this set in :data:`COLOURS`. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -84,7 +84,7 @@ def site_flows(scene: Problem) -> list[Part]:
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice Hamiltonian and their exact flows.
 
-    The last part in the list is the potential energy. The flow of this part is a kick.
+    The last part in the list is the potential energy. The flow of the potential energy is a kick.
     """
     assert scene.sites is not None
     listed, total = [], scene.sites.force

@@ -19,7 +19,7 @@ class Stated(Flow):
     """The flow of a part of the Hamiltonian, given by the user's formulas for (q, mu) after the time tau.
 
     When the scene is defined, the formulas are checked. If the formulas do not satisfy the equations of
-    motion of this part, :class:`codegen.errors.SceneError` is raised.
+    motion of the part, :class:`codegen.errors.SceneError` is raised.
     """
 
     formulas: tuple[Expr, ...]
@@ -43,7 +43,7 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """If the scene gives the flow of this part of the Hamiltonian, return the part with this flow.
+    """If the scene gives formulas for the flow of the part, return the part with this flow.
 
     Otherwise return None.
     """

@@ -1,12 +1,12 @@
 """Tops: quadratic functions of the momentum, split into terms whose flows are rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Let B be a constant symmetric
-matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are
-numbers, and e_k are fixed vectors.
+matrix. The function P.(B P)/2 is written as the sum of c P.P/2 and terms d_k (e_k.P)^2/2 with numbers c and
+d_k and fixed vectors e_k.
 
 - The flow of d_k (e_k.P)^2/2 is a rotation about the axis e_k. This rotation is called a turn.
-- If the adjoint action preserves the dot product, the flow of c P.P/2 is a rotation about the momentum. This
-  rotation commutes with all turns.
+- If the adjoint action preserves the dot product, the flow of c P.P/2 is a rotation about the momentum. The
+  rotation about the momentum commutes with all turns.
 - If the adjoint action does not preserve the dot product, c is 0.
 
 If there is only one turn, the composition of the turn and the rotation about the momentum is the exact flow
@@ -103,8 +103,8 @@ def _invariant(group: LieGroup) -> bool:
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
     """Add w.P to the Hamiltonian of the turns, and return the new turns. Here P is the momentum.
 
-    If the axis of a turn is parallel to the
-    vector w, w.P changes the offset of this turn. Otherwise a turn about w is appended.
+    If the vector w is parallel to the axis of a turn, w.P changes the offset of this turn. Otherwise a turn
+    about w is appended.
     """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)

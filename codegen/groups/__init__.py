@@ -99,8 +99,8 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""A map from each module of this package to the names of its group classes. ``orderconds list groups`` prints
-these classes.
+"""The names of the group classes in each module of this package. ``orderconds list groups`` prints these
+names.
 """
 
 lazy(__name__, base=("LieGroup",), **LISTED)
@@ -117,13 +117,13 @@ def register(cls: Registered) -> Registered:
 
     A group class is added to the list of groups, and an action class is added to the list of actions. The
     function can be used as a decorator. A scene (a problem) can also use an unregistered class. If you
-    register a second class with the same name, it replaces the first class.
+    register two classes with the same name, the second class replaces the first class.
 
     :class:`SceneError` is raised in three cases:
 
     - The class is neither a group nor an action.
     - An abstract method is not implemented.
-    - A class of this package already has the name.
+    - A class of this package has the same name.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup

@@ -1,11 +1,11 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
-Here z is a number that depends on x. On such an algebra each power series in ad_x with the constant term 1
-is equal to 1 + b ad_x + c ad_x^2. The coefficients b and c are functions of z. Products and inverses of these
-series have the same form. For the series exp(ad_x), b and c are Stumpff functions of z.
+The number z depends on x. On such an algebra each power series in ad_x with the constant term 1 is equal to
+1 + b ad_x + c ad_x^2. The coefficients b and c are functions of z. Products and inverses of such power series
+also have the form 1 + b ad_x + c ad_x^2. For the series exp(ad_x), b and c are Stumpff functions of z.
 
-On so(3), z = x.x is never negative. On sl(2), z is four times the determinant of the 2 x 2 matrix of x.
-This number can be negative.
+On so(3), z = x.x is never negative. On sl(2), z is four times the determinant of the 2 x 2 matrix of x,
+and z can be negative.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     negative, set ``signed`` to true.
 
     All exponentials in ``word`` are combined into exp(a t) with a number a. If ``word`` contains factors
-    dexp(s t), the first of them is multiplied by exp(a t). The product is (exp((a + s) t) - exp(a t))/(s t).
-    All other factors are multiplied one by one.
+    dexp(s t), the first factor dexp(s t) is multiplied by exp(a t). The product is
+    (exp((a + s) t) - exp(a t))/(s t). All other factors are multiplied one by one.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -86,8 +86,8 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers times t^2. The
-    # coefficients of t and t^2 are the entries of ``sums``. They are computed by Horner's rule.
+    # Because t^3 = -z t, odd powers of t are numbers times t, and even powers are numbers times t^2.
+    # Horner's rule computes the coefficients of t and t^2, the entries of ``sums``.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k

@@ -1,17 +1,17 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars. An element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. These scalars are the coordinates: the docstring of each group class describes
-them. Groups act from the left, tangent vectors are right-trivialised, and the bracket of matrices is
-[A, B] = AB - BA (see :mod:`orderconds`).
+flat tuple of ``dim`` scalars. The scalars are called coordinates. The docstring of each group class describes
+the coordinates. Groups act from the left, tangent vectors are right-trivialised, and the bracket of matrices
+is [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument d of each operation is a domain: it defines the type of the scalars and the functions of
 scalars (:mod:`codegen.ir.domain`). An operation uses only ``+ - * /`` on the scalars, constants from
-``d.rational(p, q)`` and functions from ``d.call``. Therefore the same implementation works for floats,
-40-digit numbers, power series in the step size h, and the expressions from which code is emitted.
+``d.rational(p, q)`` and functions from ``d.call``. Therefore one implementation of the operation works
+for floats, 40-digit numbers, power series in the step size h, and the expressions from which code is emitted.
 
-To define a group, inherit :class:`LieGroup` and write its five abstract methods. These methods are enough for
-scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
+To define a group, inherit :class:`LieGroup` and write its five abstract methods. The five methods are enough
+for scenes (problems) with a vector field: for all integrators of such a scene, for emitted code, and for
 convergence tests. The function :func:`codegen.groups.register` adds the class to the list of groups.
 
 A group may have additional operations, the capabilities (:mod:`codegen.groups.capabilities`). Scenes with a
@@ -63,7 +63,7 @@ class LieGroup(ABC):
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral element e as ``size`` scalars. It satisfies e g = g e = g."""
+        """Return the neutral element e as ``size`` scalars. For all g, e g = g e = g."""
 
     @abstractmethod
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
@@ -80,11 +80,11 @@ class LieGroup(ABC):
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric. It must also satisfy the
+        """Return the bracket [x, y]. The bracket must be bilinear and antisymmetric, and must satisfy the
         Jacobi identity.
 
         The product exp(h x) exp(h y) exp(-h x) exp(-h y) must be equal to exp(h^2 [x, y] + O(h^3)). This
-        condition determines the sign of the bracket.
+        equation determines the sign of the bracket.
         """
 
     @abstractmethod
@@ -121,8 +121,8 @@ class LieGroup(ABC):
     def variants(self) -> Sequence[LieGroup]:
         """Return implementations of this group that differ only in :meth:`expmul`.
 
-        The compiler compiles a step with each implementation. It chooses the step with the shortest estimated
-        time.
+        The compiler compiles a step with each implementation, and chooses the step with the shortest
+        estimated time.
         """
         return (self,)
 
@@ -151,7 +151,7 @@ class LieGroup(ABC):
         return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return an element as a sympy column. Its entries are the symbols from :meth:`symbols`."""
+        """Return an element as a sympy column. The entries of the column are given by :meth:`symbols`."""
         from sympy import Matrix
 
         return Matrix(self.symbols(name))

@@ -44,19 +44,19 @@ class Coadjoint(LieGroup):
 
     @abstractmethod
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return Ad_g x = g x g^-1. It satisfies g exp(x) = exp(Ad_g x) g."""
+        """Return Ad_g x = g x g^-1. The result satisfies g exp(x) = exp(Ad_g x) g."""
 
     @abstractmethod
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu, which is defined by <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
+        """Return the covector Ad*_g mu with <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
 
     @abstractmethod
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{g^-1} mu. This map is the inverse of :meth:`Adt`."""
+        """Return Ad*_{g^-1} mu. The map Ad*_{g^-1} is the inverse of Ad*_g."""
 
     @abstractmethod
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y."""
+        """Return the covector ad*_x mu with <ad*_x mu, y> = <mu, [x, y]> for all y."""
 
     @abstractmethod
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -68,7 +68,8 @@ class Coadjoint(LieGroup):
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return the sum of B_k/k! (ad*_x)^k mu for k = 0, ..., order.
 
-        B_k are the Bernoulli numbers with B_1 = -1/2. This map is the transpose of :meth:`dexpinv`.
+        B_k are the Bernoulli numbers with B_1 = -1/2. The map from mu to the sum is the transpose of the
+        map from y to dexpinv(x, y, order).
         """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
@@ -98,8 +99,8 @@ class Coadjoint(LieGroup):
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{exp(-x)} mu + dexp*_{-x} n.
 
-        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G. It is the same
-        for all q in G.
+        The result is the momentum of the product of exp(x, n) and (q, mu) in the group T*G. This momentum
+        does not depend on q.
         """
         turned = self.Adtinv(d, self.exp(d, x), mu)
         pushed = self.dexpt(d, tuple(-a for a in x), n)
@@ -145,7 +146,7 @@ class LeftTranslation(Coadjoint):
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x, the derivative of g exp(eps x) at eps = 0. It is equal to velocity(Ad_g x, g)."""
+        """Return g.x, the derivative of g exp(eps x) at eps = 0. The result equals velocity(Ad_g x, g)."""
 
     @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -193,8 +194,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        The optional function ``total`` computes sums of f v by a short formula. Its argument is a tuple of
-        indices of terms. It returns the sum of f v over these terms.
+        The optional function ``total`` computes sums of f v by a short formula. For a tuple of indices
+        of terms, ``total`` returns the sum of f v over these terms.
         """
 
 
@@ -213,9 +214,10 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix. This map is the inverse of :meth:`matrix`.
+        """Return the coordinates of an element, given its matrix. The method inverts :meth:`matrix`.
 
-        The map must be linear, because it is applied to differences of matrices, too.
+        The map from matrices to coordinates must be linear, because the method is also called for differences
+        of matrices.
         """
 
     @abstractmethod
@@ -224,7 +226,7 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element of the algebra, given its matrix. This map is the inverse of
+        """Return the coordinates of an element of the algebra, given its matrix. The method inverts
         :meth:`hat`.
         """
 
@@ -236,15 +238,14 @@ class Inverse(LieGroup):
 
     @abstractmethod
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g^-1. It satisfies mul(g, inverse(g)) = mul(inverse(g), g) = e."""
+        """Return the element g^-1 with g g^-1 = g^-1 g = e."""
 
 
 class CayleyMap(LieGroup):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and the inverse of its differential. Here 1 is the
     identity, and x is a matrix or a quaternion.
 
-    The algebra must contain the cube x^3 of each of its elements x. This condition ensures that cay(x) is an
-    element of the group.
+    For each element x, the algebra must also contain x^3. Then cay(x) is an element of the group.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -315,7 +316,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return [Symbol(f"{name}{i}{mark}{j}", real=True) for i in rows for j in rows]
 
     def point(self, name: str) -> sympy.Matrix:
-        """Return an element as a square sympy matrix. Its entries are the symbols from :meth:`symbols`."""
+        """Return an element as a square matrix of sympy symbols, given by :meth:`symbols`."""
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
@@ -432,9 +433,9 @@ class CotangentBundle(LieGroup):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return the image of ``covector`` under the canonical Poisson bivector of T*G at the point z.
 
-        Both are right-trivialised: ``covector`` is in the dual of the algebra of T*G, and the image is in the
-        algebra. If ``covector`` is the differential of a Hamiltonian, the image is the Hamiltonian vector
-        field.
+        The covector and its image are right-trivialised: ``covector`` is in the dual of the algebra of T*G,
+        and the image is in the algebra. If ``covector`` is the differential of a Hamiltonian, the image is
+        the Hamiltonian vector field.
         """
 
 

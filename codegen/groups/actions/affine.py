@@ -17,7 +17,8 @@ class AffineAction(Action):
 
     For example, consider the equation z' = L z + N(z) with a constant matrix L. Let z0 be the state at the
     beginning of a step. The Lie-Euler method replaces N(z) by the constant c = N(z0). A step of size h maps
-    z0 to exp(h L) z0 + h phi(h L) N(z0), where phi(w) = (exp(w) - 1)/w. This is the exponential Euler method.
+    z0 to exp(h L) z0 + h phi(h L) N(z0), where phi(w) = (exp(w) - 1)/w. A method with this step is called the
+    exponential Euler method.
     """
 
     name = "affine maps"

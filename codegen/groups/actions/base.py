@@ -1,7 +1,7 @@
 """The base class of left actions of a group on a manifold.
 
 To define an action, write a subclass of :class:`Action` with the members ``name``, ``act`` and ``velocity``.
-These members are enough for scenes (problems), emitted code and convergence tests. The methods
+The three members are enough for scenes (problems), emitted code and convergence tests. The methods
 ``point_size``, ``laws`` and ``to_orbit`` are optional.
 """
 

@@ -71,9 +71,9 @@ class DiagonalAction(Action):
         return tuple(a for action, own in self._parts(group, y) for a in action.velocity(d, group, x, own))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Project y1 onto the orbit of s1, project y2 onto the orbit of s2, and so on.
+        """Project y = (y1, y2, ...) onto the orbits of the points in start = (s1, s2, ...).
 
-        Here y = (y1, y2, ...) and start = (s1, s2, ...). The result contains the projected points.
+        y1 is projected onto the orbit of s1, y2 onto the orbit of s2, and so on.
         """
         rows = zip(self._parts(group, y), self._parts(group, start), strict=True)
         return tuple(a for (action, own), (_, first) in rows for a in action.to_orbit(d, group, own, first))

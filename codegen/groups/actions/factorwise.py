@@ -76,10 +76,10 @@ class FactorwiseAction(Action):
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Call operation(action1, factor1, x1, y1), operation(action2, factor2, x2, y2), and so on.
+        """Apply an operation to each factor, with x = (x1, x2, ...) and y = (y1, y2, ...).
 
-        Here x = (x1, x2, ...) and y = (y1, y2, ...). The method returns all results as one tuple of
-        coordinates.
+        The calls are operation(action1, factor1, x1, y1) and so on. The method returns all results as one
+        tuple of coordinates.
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
@@ -109,9 +109,9 @@ class FactorwiseAction(Action):
         return self._each(group, lambda a, f, own, point: a.velocity(d, f, own, point), x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Project y1 onto the orbit of s1, project y2 onto the orbit of s2, and so on.
+        """Project y = (y1, y2, ...) onto the orbits of the points in start = (s1, s2, ...).
 
-        Here y = (y1, y2, ...) and start = (s1, s2, ...). The result contains the projected points.
+        y1 is projected onto the orbit of s1, y2 onto the orbit of s2, and so on.
         """
         rows = zip(self._pairs(group), self._split(group, y), self._split(group, start), strict=True)
         return tuple(

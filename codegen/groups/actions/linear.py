@@ -34,8 +34,8 @@ class Linear(Action):
         """If the group consists of rotations, scale y approximately to the length of ``start``.
 
         For other groups, return y. Let e = 1 - (y.y)/(start.start) with the dot product. The factor
-        (1 - e)^(-1/2) would give the length of ``start``. Instead, y is multiplied by the first terms of the
-        Taylor series of this factor, 1 + e/2 + 3 e^2/8. The relative error of the length is O(e^3).
+        (1 - e)^(-1/2) would give the length of ``start``. Instead, y is multiplied by 1 + e/2 + 3 e^2/8, the
+        first terms of the Taylor series of (1 - e)^(-1/2). The relative error of the length is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y

@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class Motion(Action):
     """Rigid motions acting on points z by g.z = R z + a, with a rotation R and a translation a.
 
-    SE(2) acts on the plane, and SE(3) acts on three-dimensional space. Other semidirect products act by the
-    same formula, where R is a linear map.
+    SE(2) acts on the plane, and SE(3) acts on three-dimensional space. Other semidirect products act by
+    g.z = R z + a with a linear map R.
     """
 
     name = "rigid motion"
