@@ -3,9 +3,9 @@
 Rational and algebraic numbers are stored exactly. Any other number is stored as a ball, that is, as an
 interval that contains the number. When code is printed, each number is rounded to a floating-point number.
 
-Two balls with equal end points are treated as the same number (:attr:`Number.key`). If the operands are the
-same number, subtraction gives exactly 0 and division gives exactly 1. Multiplication by 1 does not change a
-ball.
+Two balls with equal end points are treated as the same number (:attr:`Number.key`). If both operands are
+the same number, their difference is exactly 0. If this number is not zero, their quotient is exactly 1.
+Multiplication by 1 does not change a ball.
 """
 
 from __future__ import annotations
@@ -70,10 +70,10 @@ class Number:
 
     @classmethod
     def read(cls, text: str) -> Number:
-        """Return the number in a text that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
+        """Return the number that a user typed as ``text``. Examples are ``1/2``, ``0.25`` and ``-3e-2``.
 
-        ValueError is raised if the text is not a rational number. It is also raised if the number is too
-        small or too large for a normal double (:func:`is_normal`).
+        ValueError is raised if the text is not a rational number, or if :func:`is_normal` is False for this
+        number.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
@@ -125,7 +125,7 @@ class Number:
         raise TypeError(f"numbers of two different rings cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers are added directly. This is faster than the test ``self == -other`` below, which
+        # Rational numbers are added directly. The test ``self == -other`` below is slower, because it
         # computes the keys of both numbers.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)

@@ -100,7 +100,9 @@ class Operation(ABC):
         """Return the results of the operation for ``args``. The scalars in ``args`` belong to ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the operation maps arguments of these kinds to results of these kinds."""
+        """Return True if the arguments may have the kinds ``arguments``, and the results the kinds
+        ``results``.
+        """
         return (arguments, results) == self.signature()
 
     def text(self) -> str:
@@ -124,7 +126,7 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the operation maps arguments of these kinds to results of these kinds."""
+        """Return True if there are no arguments, and ``kind`` is the kind of the result and is permitted."""
         # Groups and manifolds have no zero vector, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
@@ -151,8 +153,8 @@ class Linear(Operation):
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there is one argument for each coefficient, and all arguments and the result have
-        the same kind. This kind must be the algebra or its dual.
+        """Return True if there is one argument for each coefficient, and all arguments and the only result
+        belong to the same space: the Lie algebra or its dual.
         """
         # A sum without terms is not accepted: its kind would be unknown. The operation :class:`Zero` gives
         # the zero vector.
@@ -167,8 +169,8 @@ class Linear(Operation):
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the linear combination. Vectors with equal coefficients are added first. Their sum is then
-        multiplied by the coefficient.
+        """Return the linear combination. Vectors with the same coefficient are added before the
+        multiplication by this coefficient.
         """
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
@@ -215,7 +217,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results of the function called :attr:`function` for the arguments ``args``."""
-        # These functions are not truncated, so ``order`` is None.
+        # The argument None is the order of truncation: these functions are not truncated.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -290,8 +292,8 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-# For a matrix A, exp(A) y can be computed from products of A and vectors. This is often faster than the
-# computation of exp(A).
+# For a matrix A, exp(A) y can be computed from products of A and vectors. These products often take less
+# time than the computation of exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -331,7 +333,7 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation that computes the inverse of this linear map, for the same group element g."""
+        """Return the operation for the inverse linear map, with the same group element g."""
         # The inverse of Ad_g is Ad_{g^-1}, and the inverse of Ad*_g is Ad*_{g^-1}.
         return Adjoint(self.dual, not self.inverse)
 
@@ -383,8 +385,8 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
-        # If one function of ad_x is applied to the result of another with the same x, a compiler pass
-        # replaces both by one :class:`AdSeries`.
+        # If two functions of the same ad_x are applied one after the other, a compiler pass replaces the two
+        # operations by one :class:`AdSeries`.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -467,13 +469,13 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if ``word`` is not empty and the operation maps arguments of these kinds to results of
-        these kinds.
+        """Return True if ``word`` is not empty, and ``arguments`` and ``results`` are the kinds in
+        :meth:`signature`.
         """
         # An empty product is the identity map, which needs no operation.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions in ``word``, applied to the last argument."""
-        # All functions have the same operator ad_x and commute, so their order does not matter.
+        # All factors are functions of the same operator ad_x. Hence the factors commute.
         return (problem.series(domain, self.word, self.dual, *args),)

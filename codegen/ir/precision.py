@@ -49,8 +49,8 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to a tolerance for this format. The tolerance is proportional to
-        the unit roundoff of the format.
+        """Convert ``tolerance`` from doubles to this format. The factor is the unit roundoff of this format
+        divided by the unit roundoff of doubles.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
@@ -76,7 +76,7 @@ class Precision:
         # Python's ``repr`` of a float is the shortest text that is converted back to the same double.
         if self.bits == 53:
             return repr(x)
-        # For single precision, the loop finds the shortest text. It tries 1 digit, 2 digits, and so on.
+        # For single precision, the loop tries texts with 1 digit, 2 digits, and so on.
         for digits in range(1, self.digits + 1):
             # ``struct.pack`` rounds its argument to single precision. The rounded numbers are compared.
             shorter = repr(float(f"{x:.{digits}g}"))

@@ -7,8 +7,8 @@ Equations that depend on one another form a :class:`Solve` block u = g(u). The s
 g(u) from the unknowns u. A method with stages is translated to a program that has one block for all stages.
 Compiler passes split this block if the stages can be computed in sequence.
 
-A program has no branches. Its only loops are the iterations that solve blocks. All group elements belong to
-one group.
+The statements of a program contain no branches. The only loops in the statements are the iterations that
+solve blocks. All group elements belong to one group.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ The result approximates the solution at the time t + theta h.
 
 
 SPACE, BODY = "space", "body"
-"""The values of :attr:`Program.frame`. They name the frame of the momentum in the statements of a program."""
+"""The values of :attr:`Program.frame`, the frame of the momentum in the statements of a program."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ class Program:
 class Builder:
     """Builds a list of assignments.
 
-    A method such as :meth:`exp` appends an assignment. It returns the new variable that is assigned.
+    Each method for an operation, for example :meth:`exp`, appends an assignment and returns its variable.
     """
 
     taken: set[str] = field(default_factory=set)
@@ -293,7 +293,7 @@ class Builder:
         ``part`` is the name of the term. The flow starts at (q, mu). If the term depends on time, ``time`` is
         the time t at which the term is evaluated. During the flow, t is constant.
         """
-        # The variable names contain the number of this assignment, so two flows have different names.
+        # The variable names contain the position of this assignment in ``body``, for example q3 and mu3.
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))

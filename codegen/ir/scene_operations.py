@@ -67,8 +67,8 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P), for a momentum P in the body frame (:mod:`codegen.scene.body_frame`)."""
 
-    # The velocity and the force are separate operations, so compiler passes can remove one of them if it is
-    # unused.
+    # The velocity and the force are separate operations. Compiler passes can remove either operation if its
+    # result is not used.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -234,7 +234,7 @@ class FlowOf(Operation):
     part: str
     duration: Coefficient
     timed: bool = False
-    # In the cost of a method, a flow counts as one exponential, because both take about the same time.
+    # A flow takes about the same time as an exponential, and counts as one in the cost of a method.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"

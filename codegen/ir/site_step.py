@@ -53,8 +53,8 @@ class Load:
     """A number that a sweep reads at each site. ``symbol`` denotes the number in the formulas.
 
     A row contains one number for each site. If ``neighbour`` is :data:`OWN`, the sweep reads the number of
-    the site itself from ``row``. For other values, the sweep reads the number of a neighbour, and
-    ``neighbour`` is the index of this neighbour in :attr:`SiteStep.offsets`.
+    the site itself from ``row``. Otherwise, ``neighbour`` is an index in :attr:`SiteStep.offsets`, and the
+    sweep reads the number of the neighbour with this index.
     """
 
     symbol: str
@@ -132,8 +132,8 @@ class SiteNewton:
 
     - The matrix occupies 3 ``size``^2 rows from row ``matrix`` on. The blocks of one site are contiguous.
     - The residuals occupy ``size`` rows from row ``residual`` on.
-    - In a periodic chain, the columns for the unknowns of the last site are stored separately. They are
-      called the border, and occupy ``size``^2 rows from row ``border`` on.
+    - In a periodic chain, the columns for the unknowns of the last site are stored separately. These columns
+      are called the border. The border occupies ``size``^2 rows from row ``border`` on.
     """
 
     kernel: Kernel
@@ -186,7 +186,7 @@ class SiteNewton:
 
 @dataclass(frozen=True)
 class SiteBlock:
-    """Implicit equations u = g(u) for the unknowns u of all sites. They are solved by iteration.
+    """Implicit equations u = g(u) for the unknowns u of all sites, solved by iteration.
 
     In each iteration, the sweeps with the indices ``first`` to ``last`` compute g(u). If ``newton`` is None,
     g(u) replaces u. If ``newton`` is given, the sweeps store the residuals g(u) - u, and Newton's method
@@ -222,7 +222,7 @@ class SiteFlow:
 
 @dataclass(frozen=True)
 class SiteStep:
-    """One step of a lattice.
+    """One step of a lattice system.
 
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.

@@ -50,8 +50,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # ``evaluate`` simplifies the node with the new arguments. It can only replace symbols, so the
-            # copy of the node has symbols as arguments.
+            # ``evaluate`` simplifies the node with the new arguments. The copy of the node has symbols as
+            # arguments, because ``evaluate`` can only replace symbols.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))

@@ -22,7 +22,7 @@ PREFIX = "table_"
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial in x. The string is the name of this function in expressions.
+    """A piecewise polynomial in x. The object is a string: the name of the polynomial in expressions.
 
     The increasing numbers ``knots`` divide the real line into intervals. Interval k begins at
     ``knots[k - 1]`` and ends before ``knots[k]``. The first interval is unbounded to the left, and the last
@@ -47,7 +47,7 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the piecewise polynomial. Zeros are appended to the rows of coefficients, so that all rows
+        """Return the piecewise polynomial. Zeros are appended to the rows of coefficients until all rows
         have the same length and at least two entries.
         """
         # A polynomial with one coefficient would have a finite value at x = NaN. With two coefficients, the
@@ -81,8 +81,8 @@ class PiecewisePolynomial(str):
 
         ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If x is a NaN, the result is x.
         """
-        # Bisection counts the knots that are less than or equal to x. Their number is the index of the
-        # interval that contains x.
+        # Bisection counts the knots that are less than or equal to x. The number of these knots is the index
+        # of the interval that contains x.
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2

@@ -2,8 +2,8 @@
 much shorter than separate code for each order.
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
-the sum of a_j b_{n-j} over 0 < j < n. It contains only coefficients of lower orders. For each order n, the
-emitted loop first computes all inner sums. It then computes coefficient n of every expression.
+the sum of a_j b_{n-j} over 0 < j < n, and contains only coefficients of lower orders. For each order n, the
+emitted loop first computes all inner sums, and then coefficient n of every expression.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of four symbols in the loop over the order n. Their values are n, 1/n, 1/(n + 1), and
-coefficient n of the time, which is 1 for n = 1 and 0 for n > 1.
+"""The names of four symbols in the loop over the order n. The values of the symbols are n, 1/n, 1/(n + 1),
+and coefficient n of the time. Coefficient n of the time is 1 for n = 1, and 0 for n > 1.
 """
 
 PROBED = 3
@@ -74,7 +74,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of ``recurrence`` must be expressions of ``space``, and ``recurrence.scale`` must be 1.
     """
-    # The method ``constant`` reads coefficients of the coordinates. They are computed here.
+    # The coefficients of the coordinates are computed here, because the method ``constant`` reads them.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
     # Coefficient n + 1 of a coordinate is 1/(n + 1) times coefficient n of the derivative of the coordinate.
@@ -190,7 +190,7 @@ class _Loop:
             # If one factor is a constant c, the coefficients of the other factor are multiplied by c.
             constant, other = (a, y) if x is None else (b, x)
             return self.value(constant.term(0)) * _known(other)
-        # The inner sum lacks the terms j = 0 and j = n, which are a_0 b_n and a_n b_0.
+        # The inner sum does not contain a_0 b_n and a_n b_0, the terms for j = 0 and j = n.
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
@@ -222,15 +222,15 @@ class _Loop:
                 x = self.known[id(a)]
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
-                # ``series.inverse`` is 1/b_0, where b is the divisor. It is computed before the loop, because
-                # a division in the loop would be slow.
+                # For the divisor b, ``series.inverse`` is 1/b_0. This quotient is computed before the loop,
+                # because a division in the loop would be slow.
                 rest = self.beyond(b, series)
                 return self.value(series.inverse) * (-rest if x is None else x - rest)
             case _:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of a function of a series, such as a root, a power or a sine."""
+        """Return coefficient n of ``series``, which is a function of a series, for example its sine."""
         space = self.space
         match series:
             case Root(a=a):
@@ -238,8 +238,8 @@ class _Loop:
                 # 0 < j < n. ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # For p = a^e, a_0 p_n is the sum of ((e + 1) j/n - 1) a_j p_{n-j} over 0 < j <= n. This
-                # sum is split into two sums. Coefficient j of ``slope`` is j a_j.
+                # For p = a^e, a_0 p_n is (e + 1)/n times the sum of j a_j p_{n-j}, minus the sum of
+                # a_j p_{n-j}, both over 0 < j <= n. Coefficient j of ``slope`` is j a_j.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -291,7 +291,7 @@ def _operands(series: Series) -> Sequence[Series]:
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             # The formula for a logarithm l also contains the coefficients j l_j of the series ``slope``, but
-            # only for j < n. This series is therefore not listed here.
+            # only for j < n. Therefore ``slope`` is not listed here.
             return (a,)
         case Given() | Start():
             return ()

@@ -1,8 +1,8 @@
 """Taylor coefficients in time of the solution of y' = F(y, t).
 
 Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). Coefficient
-n + 1 of y follows from coefficient n of F. Each product of two series is a convolution, which is expensive.
-Therefore a product or quotient of powers of the same expression is rewritten as one power. For example,
+n + 1 of y follows from coefficient n of F. Each product of two series is an expensive convolution. To avoid
+convolutions, a product or quotient of powers of the same expression is rewritten as one power. For example,
 x sqrt(x) and sqrt(x)^3 become x^(3/2).
 """
 
@@ -49,8 +49,8 @@ TIME = "t"
 class _Builder:
     """Builds the power series of expressions.
 
-    ``series`` contains the series of the coordinates and of the time. ``values`` contains the values of all
-    other symbols, which are constant. ``known`` contains the series that are already built, by node number.
+    ``series`` contains the series of the coordinates and of the time. All other symbols are constant, and
+    ``values`` contains their values. ``known`` contains the series that are already built, by node number.
     """
 
     domain: Domain
@@ -132,7 +132,7 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # If the exponent is 0, 2, 3, ..., the node is not rewritten. Its operands are multiplied or divided.
+        # If the exponent is 0, 2, 3, ..., the node is not rewritten as one power.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -313,8 +313,7 @@ class Recurrence:
 
         A coefficient that is identically zero is represented by None.
         """
-        # All coordinates have the same number of known coefficients. This number is read from the first
-        # coordinate.
+        # The number of known coefficients is the same for all coordinates. The loop reads it from the first.
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]

@@ -53,7 +53,7 @@ class Series(ABC):
 
 
 class Given(Series):
-    """The series of a constant, of the time, or of a coordinate. Its coefficients are given."""
+    """The series of a constant, of the time, or of a coordinate, given by its coefficients."""
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -62,8 +62,8 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # For a coordinate, ``closed`` is false. Its coefficients follow from the differential equation, and
-        # are appended one by one.
+        # For a coordinate, ``closed`` is false. The coefficients of a coordinate follow from the differential
+        # equation, and are appended one by one.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -139,7 +139,7 @@ class Root(Series):
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
             return root
-        # ``rest`` is the sum over 0 < j < n. It does not contain the unknown coefficient s_n.
+        # ``rest`` is the sum over 0 < j < n. This sum does not contain the unknown coefficient s_n.
         rest = _square(self.domain, self, n, first=1)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -197,7 +197,7 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The series s a', where s is the time from the beginning of the step. Its coefficients are n a_n."""
+    """The series s a', where s is the time from the beginning of the step. Coefficient n is n a_n."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -248,10 +248,10 @@ class Logarithm(Series):
 
 
 class Antiderivative(Series):
-    """The series f(a) for a function f with a simple derivative, such as tan or atan.
+    """The series f(a), where f is tan, atan or another function with a simple derivative.
 
-    The coefficients of b = f(a) follow from the differential equation b' = r a'. Here r is the series
-    ``rate``, the derivative of f at a. ``slope`` is the :class:`Slope` of a.
+    Let r = f'(a) be the series ``rate``. The coefficients of b = f(a) follow from the differential equation
+    b' = r a'. ``slope`` is the :class:`Slope` of a.
     """
 
     rate: Series
@@ -434,7 +434,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return the product a b. If a or b is zero, which is represented by None, the result is None."""
+    """Return the product a b. None represents zero: if a or b is None, the result is None."""
     return None if a is None or b is None else a * b
 
 

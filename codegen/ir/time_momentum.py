@@ -26,7 +26,8 @@ class TimeMomentum(Operation):
     denotes the derivative with respect to t for fixed y and fixed step size h.
 
     The arguments are (y, u), (Y, u) and t. The result is Y with the new value of u. The program ``step``
-    computes (Y, u) from (y, u) and t. It is needed for the derivatives.
+    computes (Y, u) from (y, u) and t. If the scalars are not expressions, Q' and P' are computed from
+    ``step``.
     """
 
     step: Program

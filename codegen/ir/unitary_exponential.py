@@ -2,7 +2,7 @@
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero, and let I be the unit matrix. Then H^3 = p H + q I,
 where p = tr(H^2)/2 and q = det H. Hence exp X is a linear combination of I, H and H^2. The coefficients of I,
-H and H^2 depend only on p and q. They are computed from the Taylor polynomial of exp X by Horner's rule. Each
+H and H^2 depend only on p and q. Horner's rule computes them from the Taylor polynomial of exp X. Each
 step of Horner's rule multiplies by H, and replaces H^3 by p H + q I. No step divides by differences of
 eigenvalues, so equal eigenvalues need no special case (M. Luescher, SU(3) matrix functions, notes of
 openQCD).
@@ -42,8 +42,8 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates of X."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. The derivatives of exp X are computed by this function, and also
-exp X for mpmath numbers and power series.
+"""The exponential of real 6 x 6 matrices. For mpmath numbers and power series, exp X is computed by this
+function.
 """
 
 
@@ -51,7 +51,7 @@ def most_squarings(bits: int) -> int:
     """Return the largest allowed number s of squarings of the matrix exp(X/2^s).
 
     Let 2^-``bits`` be the unit roundoff. The relative error after s squarings is at most
-    2^(s - ``bits`` + 6). This bound must not exceed 2^-10, which corresponds to three correct decimal digits.
+    2^(s - ``bits`` + 6). This bound must not exceed 2^-10, about three correct decimal digits.
 
     >>> most_squarings(53)
     37
@@ -61,8 +61,8 @@ def most_squarings(bits: int) -> int:
 
 @dataclass(frozen=True)
 class SpecialUnitaryExponential(VectorFunction):
-    """The exponential of a matrix X of su(3). The arguments are the eight coordinates of X, which are defined
-    in :mod:`codegen.ir.unitary_exponential`.
+    """The exponential of a matrix X of su(3). The arguments are the eight coordinates of X. The module
+    docstring defines these coordinates.
     """
 
     n: int = ROWS
@@ -90,7 +90,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results. They are computed with real 6 x 6 matrices.
+        """Return the derivatives of the results, computed with real 6 x 6 matrices.
 
         ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
@@ -208,8 +208,8 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate. Both have the real part
-    # ``product``. Their sum is therefore twice ``product``.
+    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate. The sum of these two
+    # terms is twice their real part ``product``.
     product = (b * f - a * e) * d + (a * f + b * e) * c
     # All other terms of the determinant contain diagonal entries d_j of H. The sum of these terms is
     # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.

@@ -66,9 +66,9 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Split the name of one result of a vector function, such as ``inverse5.7``.
+    """Split ``payload``, the name of one result of a vector function, into the function and an index.
 
-    The result is the pair (vector function, index). It is None if ``payload`` is not such a name.
+    If ``payload`` is not such a name, the result is None.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)

@@ -37,7 +37,7 @@ class VectorFunction(ABC):
     @property
     def arrays(self) -> tuple[int, ...]:
         """The lengths of the argument arrays."""
-        # By default there is one argument array. It has the same length as the result.
+        # By default there is one argument array, with as many entries as the function has results.
         return (self.size,)
 
     @property
@@ -80,4 +80,4 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exact results for truncated power series, which are elements of ``ring``."""
+        """Return the exact results. The arguments are truncated power series in ``ring``."""
