@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
-The header states facts about the method and the scene. It also lists operations and arguments that the module
-does not need.
+The header states facts about the method and the scene. The header also lists operations and arguments that
+the module does not need.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SINGLE_IS = (
 )
 
 NOT_SMOOTH = "a step has the order in this header if the vector field is smooth along the whole step"
-"""A remark in the header of an emitted module. It appears if the vector field of the scene is not smooth."""
+"""The header of an emitted module contains this remark if the vector field of the scene is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps in the lines 'solved by' are for double precision"

@@ -1,8 +1,8 @@
 """Integrators: Python objects whose methods call the code of an emitted module.
 
 A state is a flat sequence of numbers, a NumPy array, or a tuple such as (q, mu). A batch of states is an
-array with one state in each row (:mod:`codegen.state_form`). The methods return states of the type that the
-caller passed. The exception is ``run_batch``, which always returns an array.
+array with one state in each row (:mod:`codegen.state_form`). The method ``run_batch`` always returns the
+states as an array. The other methods return states of the type that the caller passed.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu.
+        """The name and the size of each part of a state. For example, a state (q, mu) has the parts q and mu.
 
         A state may be given as a tuple of its parts, in the order of ``fields``. If the integrator was not
         loaded from emitted files, ``fields`` is empty.
@@ -99,7 +99,7 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after one step of size h. StepFailed is raised if the step fails.
 
-        ``inputs`` are the values of the run-time inputs, in the order in which ``interface`` lists them. They
+        ``inputs`` are the values of the run-time inputs, in the order of ``interface.inputs``. These values
         are constant during the step.
         """
         held = None if inputs is None else numbers(inputs)
@@ -118,8 +118,8 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after ``steps`` steps of size h from time t. StepFailed is raised if a step fails.
 
-        ``inputs`` is a function of the time. It returns the values of the run-time inputs, in the order in
-        which ``interface`` lists them.
+        ``inputs`` is a function of the time. The function returns the values of the run-time inputs, in the
+        order of ``interface.inputs``.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             return batch.joined(
@@ -147,7 +147,7 @@ class Integrator(RunToEnd):
         If ``steps`` is given, the list contains the initial state and every ``stride``-th state after it.
 
         ``t_eval`` is a monotone sequence of times, and ``t`` is the time of the initial state. If ``t_eval``
-        is given, the list contains the states at these times. A step ends at each of these times. Between
+        is given, the list contains the states at these times. A step ends at each time in ``t_eval``. Between
         two successive times, the steps have equal sizes of at most abs(h).
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
@@ -168,8 +168,8 @@ class Integrator(RunToEnd):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at ``times``.
 
-        A step ends at each of these times. The steps between two successive times have equal sizes, and they
-        are not longer than abs(h).
+        A step ends at each of these times. Between two successive times, the steps have equal sizes of at
+        most abs(h).
         """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
@@ -255,8 +255,9 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted - rejected)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # A single step to ``time`` may have been shortened to end there. Then ``arrival.h``, which
-            # depends on the shortened size, may be too small. The larger of ``h`` and ``arrival.h`` is used.
+            # If only one step led to ``time``, this step may have been shortened to end there. ``arrival.h``
+            # depends on the shortened size, so it may be too small. The larger of ``h`` and ``arrival.h`` is
+            # used.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -277,9 +278,10 @@ class Integrator(RunToEnd):
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
         - ``states`` is an array of shape (N, size), or a tuple with an array for each part of the state.
-        - ``inputs`` are the values of the M run-time inputs, of shape (M,) or (N, M). They are constant.
-        - ``out`` is an array for the new states, of shape (N, size) in Fortran order. If ``out`` and
-          ``states`` are the same array, the states are not copied.
+        - ``inputs`` are the values of the M run-time inputs, of shape (M,) or (N, M). These values are
+          constant during the run.
+        - ``out`` is an array for the new states, of shape (N, size) in Fortran order. If the array ``states``
+          itself is passed as ``out``, the new states replace the old states without a copy.
         - A parameter is a number, or an array of N numbers.
 
         If a step of a system fails, no error is raised. The result contains the status of each system

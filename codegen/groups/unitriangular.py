@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class Unitriangular(MatrixGroup):
     """Upper triangular matrices with ones on the diagonal.
 
-    The basis of the algebra consists of the elementary matrices E_ij with i < j. They are ordered by i, then
-    by j.
+    The basis of the algebra consists of the elementary matrices E_ij with i < j. These matrices are ordered
+    by i, then by j.
     """
 
     def __init__(self, n: int) -> None:

@@ -1,7 +1,8 @@
-"""Products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
+"""Products of functions of one operator ad_x. Examples are the functions exp(ad_x), dexp_x and dexp_x^{-1}.
 
-Such a product is called a word. The variable t denotes ad_x, or ad*_x on the dual of the Lie algebra. Each
-factor is a function phi(s t) with a number s. The factors commute, so their order does not matter.
+A product of these functions is called a word. The variable t denotes ad_x, or ad*_x on the dual of the Lie
+algebra. Each factor is a function phi(s t) with a number s. The factors commute, so their order does not
+matter.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ class Factor:
     """The function phi(s t)^p of the variable t. ``function`` is the name of phi, ``scale`` is s, and
     ``power`` is p.
 
-    The function phi(t) is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). Here dexpinv(t) is the series of
-    1/dexp(t), truncated after the power t^``order``.
+    The function phi(t) is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). The function dexpinv(t) is the series
+    of 1/dexp(t), truncated after the power t^``order``.
     """
 
     function: str

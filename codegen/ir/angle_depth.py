@@ -18,9 +18,9 @@ def chain(kernel: Kernel) -> int:
 
     The depth is the largest number of nested Stumpff functions. The smallest depth is 1.
 
-    The depth is also 1 in two cases, in which rotations do not amplify previous rounding errors:
+    In two cases, rotations do not amplify previous rounding errors. The depth is then also 1:
 
-    - The kernel has implicit equations. Each iteration for these equations reduces the errors of all angles.
+    - The kernel solves implicit equations by iteration. Each iteration reduces the errors of all angles.
     - The kernel is a step of a splitting method with deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
     >>> from codegen.ir.expr import Space
@@ -48,10 +48,12 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # ``below`` is the largest depth of the arguments. ``walk`` yields the arguments before the node, so
         # their depths are known.
         below = max((by_node[a.id] for a in node.args), default=0)
-        # The inputs of the step, such as the old state, have depth 0: they depend on no angle of this step.
+        # The inputs of the step (for example the old state) depend on no angle of this step, so
+        # these inputs have depth 0.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # A Stumpff function increases the depth by 1. A derivative (``slope2`` etc.) does not: each formula
-        # with a derivative also contains a Stumpff function of the same angle.
+        # A Stumpff function increases the depth by 1. A derivative of a Stumpff function (``slope2`` etc.)
+        # does not increase the depth: each formula with such a derivative also contains a Stumpff function of
+        # the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

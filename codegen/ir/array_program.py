@@ -16,17 +16,18 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
-"""The names of the symbols for the row index and the column index of an entry. They contain a dot, so they
-differ from every name that a user can choose.
+"""The names of the symbols for the row index and the column index of an entry. Both names contain a dot, so
+they differ from every name that a user can choose.
 """
 
 Arrays = MutableMapping[str, list[Scalar]]
-"""A dictionary of arrays. It maps the name of an array to the entries of the array, row by row."""
+"""A dictionary that maps the name of an array to the entries of the array, row by row."""
 
 
 @dataclass(frozen=True)
 class Matrix:
-    """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
+    """A matrix that is stored row by row in the array ``name``. The first entry of the matrix has the index
+    ``start`` in the array.
 
     ``stride`` is the distance in the array between the first entries of successive rows. The value 0 denotes
     the number of columns: there are no gaps between the rows.
@@ -48,11 +49,11 @@ class Matrix:
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the submatrix with ``rows`` rows and ``columns`` columns. It begins in row ``row`` and
-        column ``column`` of this matrix.
+        """Return the submatrix with ``rows`` rows and ``columns`` columns. The first entry of the submatrix
+        is the entry (``row``, ``column``) of this matrix.
         """
-        # The submatrix is stored in the array of this matrix. Both matrices therefore have the same distance
-        # between successive rows.
+        # The submatrix and this matrix use the same array, so they have the same distance between successive
+        # rows.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -140,7 +141,8 @@ def _valued(
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
         # The formula may compare indices to select a branch. In the first evaluation all indices are exact
-        # integers. The scalars of ``domain`` may be power series, which cannot always be compared.
+        # integers, so every comparison succeeds. In ``domain``, the indices could be power series. Power
+        # series cannot always be compared.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -253,13 +255,14 @@ class ArrayProgram:
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
         """Return the statements of this program for use inside another program.
 
-        The matrices ``argument`` and ``result`` of the other program replace the argument and the result of
-        this program. The names of all other arrays get the prefix ``name``.
+        The matrices ``argument`` and ``result`` belong to the other program. They replace ``self.argument``
+        and ``self.result``. The names of all other arrays get the prefix ``name``.
         """
 
-        # Without the prefix, arrays of the two programs might have the same name.
+        # Without the prefix, an array of this program might have the name of an array of the other program.
         def now(matrix: Matrix) -> Matrix:
-            # ``argument`` and ``result`` are matrices of the other program. Their names get no prefix.
+            # The matrices ``argument`` and ``result`` belong to the other program, so their names get no
+            # prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -290,8 +293,8 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # The first assignment to an array creates the array. The target of this assignment must be the whole
-    # array.
+    # The first assignment to an array creates the array. The target of the first assignment must therefore be
+    # the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -347,7 +350,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
             # ``start`` contains one value for each entry of the target, row by row without gaps.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
-                # The transpose of a factor is not formed. Its entries are read with exchanged indices.
+                # No transpose is formed. The entries of a transposed factor are read with exchanged indices.
                 x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
                 y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
                 total = total + x * y

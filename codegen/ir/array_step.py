@@ -1,4 +1,4 @@
-"""A step of an integrator on n x k matrices with orthonormal columns. It never forms an n x n matrix.
+"""A step of an integrator on n x k matrices with orthonormal columns. The step never forms an n x n matrix.
 
 A generator is an element of so(n) whose exponential is applied to the state. All generators of a step have
 the form B S B^T with the same n x r matrix B. The matrix B is the basis of the step. The skew r x r matrix S
@@ -8,8 +8,8 @@ The first k columns of B are the state X_0 at the start of the step. Let V be th
 a point X (an n x k matrix). The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. The k columns of W
 become new columns of B. Hence r = k (m + 1) for a step with m evaluations of the vector field.
 
-Both X and W are products of B and an r x k matrix: X = B C and W = B E. Hence the core of the generator at X
-is E C^T - C E^T. The point X is stored as X = X_0 + B D, where the r x k matrix D is the displacement of X.
+There are r x k matrices C and E with X = B C and W = B E. Hence the core of the generator at X is
+E C^T - C E^T. The point X is stored as X = X_0 + B D, where the r x k matrix D is the displacement of X.
 
 Let S and T be two cores, and let G = B^T B be the Gram matrix. Commutators and exponentials are computed by
 
@@ -53,8 +53,8 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that moves a point X to exp(B S B^T) X. It assigns the displacement D of the new point to
-    ``target``, that is, exp(B S B^T) X = X_0 + B D.
+    """A statement that moves a point X to the new point exp(B S B^T) X = X_0 + B D. The statement assigns the
+    displacement D of the new point to ``target``.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
@@ -77,9 +77,9 @@ class Move:
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
         # The last formula at the beginning of this module gives the new point. S and G S are m x m matrices.
-        # The four summands are the multiplications for G S, for the norm of B S B^T, for G C, and for
-        # S phi(G S) G C. Each of the ``TERMS`` terms needs one product with G S. The factor S needs one more
-        # product. In addition, each term is multiplied by a number.
+        # The four summands of ``products`` are the multiplications for G S, for the norm of B S B^T, for G C,
+        # and for S phi(G S) G C. Each of the ``TERMS`` terms needs one product with G S. The factor S needs
+        # one more product. In addition, each term is multiplied by a number.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -92,8 +92,8 @@ class ArrayStep:
     """The statements of one step. The statements ``body`` compute the matrix ``result`` from the matrix
     ``argument``.
 
-    If the method has an error estimate, the statements ``estimate`` compute the matrix ``error``. This matrix
-    is the difference between ``result`` and an embedded solution of lower order.
+    If the method has an error estimate, the statements ``estimate`` compute the matrix ``error``. The matrix
+    ``error`` is the difference between ``result`` and an embedded solution of lower order.
     """
 
     argument: Matrix

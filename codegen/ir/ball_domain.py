@@ -1,7 +1,7 @@
 """An arithmetic with many digits, based on Arb balls.
 
-It is a faster alternative to :class:`codegen.ir.domain.PreciseDomain`. An operation on two Arb balls is
-about six times faster than the same operation on two mpmath numbers.
+This arithmetic is a faster alternative to :class:`codegen.ir.domain.PreciseDomain`. An operation on two Arb
+balls is about six times faster than the same operation on two mpmath numbers.
 
 A ball is a midpoint with an error radius. The radii would grow without bound in iterations. After each
 operation of a step program (such as exp or Ad) the ball is therefore replaced by its midpoint. Hence the
@@ -46,12 +46,12 @@ GUARD = 32
 
 
 class BallDomain:
-    """An arithmetic with ``digits`` decimal digits. Its scalars are midpoints of Arb balls.
+    """An arithmetic with ``digits`` decimal digits. The scalars are midpoints of Arb balls.
 
-    The step size ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these
-    types to scalars, and :meth:`mpf` converts a scalar to an mpmath number. Let n be
-    :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute value of
-    2^n or more, OverflowError is raised.
+    The step size ``h`` is an mpmath number, a float or a Fraction. The method :meth:`scalar` converts a
+    number of one of these three types to a scalar, and :meth:`mpf` converts a scalar to an mpmath number. Let
+    n be :data:`codegen.ir.domain.LARGEST_BITS`. If an argument of a function such as exp has an absolute
+    value of 2^n or more, OverflowError is raised.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -186,7 +186,8 @@ class BallDomain:
     def _slope(self, k: int, z: arb) -> arb:
         """Return the derivative c_k'(z) of the Stumpff function c_k.
 
-        It is computed from its series for abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z).
+        For abs(z) <= 1, the power series of c_k' is summed. For larger abs(z), c_k' is computed from c_{k-1}
+        and c_k.
         """
         if abs(z) > 1:
             # For small z, c_{k-1} and k c_k are both close to 1/(k-1)!, and their difference would lose
@@ -205,7 +206,8 @@ class BallDomain:
     def _curvature(self, k: int, z: arb) -> arb:
         """Return the second derivative c_k''(z) of the Stumpff function c_k.
 
-        It is computed from its series for abs(z) <= 1, and from c_{k-2}, c_{k-1} and c_k for larger abs(z).
+        For abs(z) <= 1, the power series of c_k'' is summed. For larger abs(z), c_k'' is computed from
+        c_{k-2}, c_{k-1} and c_k.
         """
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
@@ -231,7 +233,7 @@ class BallDomain:
         in the previous iteration, or None in the first iteration. If the change is zero, the values
         have converged. If the change is positive, convergence requires two conditions:
 
-        - The change is of the size of the rounding errors. It is at most 2^12 eps max(1, m), where m is the
+        - The change is of the size of the rounding errors, that is, at most 2^12 eps max(1, m). Here m is the
           largest absolute value in ``old``, and eps is about 10^-``digits``.
         - The change no longer decreases: it is not smaller than ``previous``.
         """
@@ -247,6 +249,6 @@ class BallDomain:
     def increment(self, x: arb) -> arb:
         """Return an increment d for which the difference quotient (f(x + d) - f(x))/d is accurate."""
         # Let eps be about 10^-``digits``. For abs(x) <= 1, the difference quotient has a rounding error of
-        # about eps/d and a truncation error of about d. These errors are equal for d = sqrt(eps). For
+        # about eps/d and a truncation error of about d. The two errors are about equal for d = sqrt(eps). For
         # abs(x) > 1, d is sqrt(eps) abs(x).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()

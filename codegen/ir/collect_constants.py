@@ -44,13 +44,13 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # The node is treated as an atom. Its linear combination has one term with the coefficient 1.
+            # The node is treated as an atom: the linear combination of the node is 1 times the node.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # The expressions in ``bare`` are not rewritten, so their operations are not counted.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
-    # ``collected`` may need more operations than ``roots``, because it may have fewer shared subexpressions.
-    # If both need the same number of operations, ``roots`` is returned.
+    # ``collected`` may have fewer shared subexpressions than ``roots`` and therefore need more operations. If
+    # ``collected`` and ``roots`` need the same number of operations, ``roots`` is returned.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -150,8 +150,8 @@ class _Gathering:
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return the term c times ``atom`` as a pair (number, expression).
 
-        For an inverse 1/y the pair is (c/e, e/y) with a positive number e. The first call for this inverse
-        sets e = |c|. Later calls use the same e. For every other atom the pair is (c, ``atom``).
+        For an inverse 1/y the pair is (c/e, e/y) with a positive number e. The first call for 1/y sets
+        e = |c|. Later calls for 1/y use the same e. For every other atom the pair is (c, ``atom``).
         """
         if not _is_inverse(atom):
             return c, atom
@@ -176,7 +176,7 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # If terms cancel, their coefficient is zero. Such terms are removed.
+            # If terms cancel, their sum has the coefficient zero. Terms with a zero coefficient are removed.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)

@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    Derivatives of vector functions are expensive. They are computed only for arguments whose node numbers are
-    in ``moving``. For the other arguments of a vector function, zero is returned. If ``moving`` is None, all
-    derivatives are computed.
+    Derivatives of vector functions are expensive. For a result of a vector function, derivatives are computed
+    only with respect to arguments whose node numbers are in ``moving``. For the other arguments, zero is
+    returned. If ``moving`` is None, all derivatives are computed.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -82,8 +82,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
-    """Return the partial derivatives of a scalar function with respect to its arguments. ``node`` is a call
-    of this function.
+    """Return the partial derivatives of ``node`` with respect to its arguments. ``node`` is a call of a
+    scalar function.
 
     The Stumpff functions c_k satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
     """
@@ -95,8 +95,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
-            # The node is atan2(x, b). Its derivatives with respect to x and b are b/(x^2 + b^2) and
-            # -x/(x^2 + b^2).
+            # The node is atan2(x, b). The derivatives of atan2(x, b) with respect to x and b are
+            # b/(x^2 + b^2) and -x/(x^2 + b^2).
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
@@ -153,7 +153,7 @@ def _selection(node: Expr) -> list[Expr]:
     if not formulas:
         return [sign(x)]
     # The derivative of ``choose(x, a, b)`` with respect to x is 0, except at the jump at x = 0. If a or b is
-    # a constant, the derivative with respect to this constant is not needed. It is set to 0.
+    # a constant, the derivative with respect to this constant is not needed, so 0 is returned for it.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -25,9 +25,9 @@ class NotConverged(ArithmeticError):
     """Raised if an iteration does not converge, or if it computes a number that is not finite."""
 
 
-# The types of scalars (float, mpf, series and Expr) have the same operators, but no common base class.
+# The types of scalars (float, mpf, arb, series and Expr) have the same operators, but no common base class.
 Scalar: TypeAlias = Any
-"""A number (scalar) of a domain. Its type depends on the domain and is known only at run time."""
+"""A number (scalar) of a domain. The type of a scalar depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
 """The value of a variable: a scalar for a real number, otherwise a flat tuple of scalars."""
@@ -90,8 +90,8 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # The formula for c_3 contains the difference s - sin s with s = sqrt z. This difference loses digits by
-    # cancellation for small s. The series is therefore used for s < 2, that is for z < 4.
+    # The formula for c_3 contains the difference s - sin s with s = sqrt z. For small s, this difference
+    # loses digits by cancellation. For c_3, the series is therefore used for s < 2, that is, for z < 4.
     if z < (0.5 if k < 3 else 4.0):
         # Horner's rule begins with the power z^14. The first omitted term is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
@@ -179,7 +179,7 @@ class FloatDomain:
         return result
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
-        """Compute a vector function for doubles by the same operations as emitted code."""
+        """Evaluate a vector function in doubles. Emitted code executes the same operations."""
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
@@ -192,8 +192,9 @@ class FloatDomain:
         # cancel. The rounding errors of the large terms do not cancel.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With q = ``change``/``before``, the next change is about q * ``change``. It must be smaller than the
-        # rounding error of the largest unknown. As q is inaccurate, ``change`` itself must also be small.
+        # With q = ``change``/``before``, the next change is about q * ``change``. This next change must be
+        # smaller than the rounding error of the largest unknown. As q is inaccurate, ``change`` itself must
+        # also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Small changes that no longer decrease are rounding errors. Large changes that no longer decrease are
@@ -202,8 +203,8 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # The difference quotient has a rounding error of about 2^-53/d, and a truncation error of about d.
-        # For d = 2^-26 the two errors are of about the same size.
+        # For abs(x) <= 1, the difference quotient has a rounding error of about 2^-53/d and a truncation
+        # error of about d. The two errors are about equal for d = 2^-26. For abs(x) > 1, d is 2^-26 abs(x).
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -216,7 +217,7 @@ class PreciseDomain:
     context.
 
     Let n be :data:`LARGEST_BITS`. If an argument of a function has an absolute value of 2^n or more,
-    OverflowError is raised. This error ends a divergent iteration before mpmath functions become very slow.
+    OverflowError is raised. A divergent iteration therefore ends before mpmath functions become very slow.
     """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
@@ -386,8 +387,8 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} cannot be computed for exact power series")
         k, step, first = starts[function]
-        # ``_sum`` computes a series with alternating signs, such as the series of sin and cos. The series of
-        # exp, sinh and cosh have no negative coefficients, so they need the negated argument.
+        # ``_sum`` computes a series with alternating signs. The series of sin and cos have alternating signs.
+        # The series of exp, sinh and cosh have no negative coefficients, so ``power`` is negated for them.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -463,7 +464,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The keys are the node numbers of times. Equal expressions have the same node number.
+        # The keys are the node numbers of times. Equal times have the same node number.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

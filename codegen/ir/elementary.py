@@ -54,7 +54,7 @@ def _arc(x: Expr, f: Expr) -> Expr:
 
 
 def _arcsine(x: Expr, f: Expr) -> Expr:
-    # This is the derivative of asin. It is infinite at x = 1 and x = -1.
+    # This derivative of asin is infinite at x = 1 and x = -1.
     return x.space.one / x.space.call("sqrt", 1 - x * x)
 
 
@@ -85,8 +85,8 @@ ELEMENTARY = {
 """The elementary functions of this module, by name."""
 
 MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
-"""The functions of one argument that have the same name in the mathematical libraries of C, Python, mpmath
-and python-flint."""
+"""Functions of one argument. Each function has the same name in the mathematical libraries of C, Python,
+mpmath and python-flint."""
 
 ANGLE = "atan2"
 """The function atan2(y, x): the polar angle of the point (x, y), from -pi to pi."""

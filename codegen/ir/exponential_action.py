@@ -3,9 +3,9 @@ formed.
 
 In doubles, A is divided by a power 2^s. The number s is chosen such that the matrix B = A/2^s has a small
 norm. The vector y is multiplied 2^s times by the Taylor polynomial of exp(B) (A. H. Al-Mohy and N. J. Higham,
-SIAM J. Sci. Comput. 33 (2011) 488). Let m be the degree of this polynomial. A multiplication by the
-polynomial replaces y by y + B (p/m!). Horner's rule computes the vector p, which is the sum of
-(m!/j!) B^(j-1) y over j = 1, ..., m.
+SIAM J. Sci. Comput. 33 (2011) 488). Let m be the degree of the Taylor polynomial. A multiplication by the
+polynomial replaces y by y + B (p/m!). The vector p is the sum of (m!/j!) B^(j-1) y over j = 1, ..., m.
+Horner's rule computes p.
 
 The integers m!/j! need no rounding. The coefficients 1/j! would be rounded, with the same rounding errors in
 all steps of an integrator. For a skew matrix A, the length of y would then drift. Emitted code
@@ -83,7 +83,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True)
 class ExponentialAction(VectorFunction):
-    """The function exp(A) y. Its arguments are entries of A, row by row, and the vector y.
+    """The function exp(A) y. The arguments are entries of A, row by row, and the vector y.
 
     If ``pattern`` is 0, all entries of A are arguments. If ``pattern`` is not 0, entry k of A is an
     argument if bit k of ``pattern`` is set. The entries that are not arguments are zero.
@@ -109,7 +109,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of A, a tuple of pairs (k, j). Argument k is the entry of this row in column j."""
+        """For each row of A, a tuple of pairs (k, j). Argument k is the entry in this row and in column j."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -151,7 +151,8 @@ class ExponentialAction(VectorFunction):
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
         zeros = [space.zero] * n
-        # The block matrix has the rows (A, A') and (0, A). It is stored row by row.
+        # The block matrix has the rows (A, A') and (0, A). ``block`` contains the entries of the block matrix
+        # row by row.
         block = [x for i in range(n) for x in (*a[n * i : n * i + n], *e[n * i : n * i + n])]
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
@@ -167,7 +168,7 @@ class ExponentialAction(VectorFunction):
         - If ``pattern`` is not 0, the result is None.
         - If A is zero, the result is y.
         - If A is not zero and has at most :data:`SPARSE` rows, the results are calls of another
-          function. The arguments of this function are the non-zero entries of A, and y.
+          function. The arguments of the other function are the non-zero entries of A, and y.
         - If A is not zero and has more rows, the result is None.
         """
         # If ``pattern`` is not 0, the zero entries of A are not arguments.
@@ -215,7 +216,8 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # Let m be ``degree``. The next line changes ``weight`` from m!/k! to m!/(k - 1)!.
                 weight *= k
-                # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
+                # The next line is a step of Horner's rule without a division. In this step
+                # p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # Now ``weight`` is m!. The product of the Taylor polynomial and y is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
@@ -261,8 +263,8 @@ class ExponentialAction(VectorFunction):
         total = term = list(args[entries:])
         # Let A = A_0 + H, where A_0 contains the constant terms, and let p be ``ring.order``. The power
         # A^(n (p + 1)) is a sum of products of A_0 and H. Truncation removes each product with more than p
-        # factors H. All other products contain A_0^n, which is 0 if A_0 is nilpotent. The truncated power
-        # is then zero, and the loop finds a zero term.
+        # factors H. Every other product contains A_0^n. If A_0 is nilpotent, then A_0^n = 0, the truncated
+        # power of A is zero, and the loop finds a zero term.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -59,7 +59,7 @@ FUNCTIONS = (
     "signed_slope2",
     "signed_slope3",
     # The function quotient(a, b) is a/b for b != 0, and 0 for b = 0. It is used if a/b tends to 0 as b tends
-    # to 0.
+    # to 0, or if the value for b = 0 has no effect on the final result.
     "quotient",
 )
 
@@ -67,8 +67,8 @@ FUNCTIONS = (
 class Expr:
     """One node of an expression. Only the methods of a :class:`Space` create nodes."""
 
-    # Equal expressions of one space are the same object. Therefore the default ``==`` and ``hash``, which
-    # compare objects, are sufficient.
+    # The default ``==`` and ``hash`` use the identity of objects. They are sufficient, because equal
+    # expressions of one space are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -157,7 +157,7 @@ class Space:
         return self._make("const", (), value)
 
     def sym(self, name: str) -> Expr:
-        """Return the symbol with this name."""
+        """Return the symbol with the name ``name``."""
         return self._make("sym", (), name)
 
     def neg(self, a: Expr) -> Expr:
@@ -166,8 +166,8 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) is replaced by b - a, which needs no negation. In floating-point arithmetic both formulas
-        # give the same value, except for the sign of zero.
+        # -(a - b) is replaced by b - a, because b - a needs no negation. In floating-point arithmetic
+        # -(a - b) and b - a give the same value, except for the sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -184,7 +184,7 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # The sum a + a is replaced by the product 2 a, which has the same floating-point value.
+        # The sum a + a is replaced by the product 2 a. Both have the same floating-point value.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. Floating-point addition is
@@ -340,7 +340,7 @@ def _joinable(a: Expr, b: Expr) -> bool:
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield each node of the expressions once. The arguments of a node are yielded before the node.
 
-    If ``stop`` is true for a node, the walk does not continue to the arguments of this node.
+    If ``stop`` is true for a node, the node is yielded, but the walk does not continue to its arguments.
     """
     # An explicit stack is used in place of recursion, because expressions may be nested more deeply than
     # Python's recursion limit allows. The loop is written for speed, because a compilation visits millions of
