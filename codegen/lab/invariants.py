@@ -106,7 +106,10 @@ def _absolute(e: Expr) -> Expr:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return expressions of the state. The state is on the manifold if and only if all of them are zero."""
+    """Return expressions of the state.
+
+    All expressions are zero if and only if the state is on the manifold.
+    """
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

@@ -141,9 +141,9 @@ def bench(
     - ``targets``: the names of programming languages in which the methods are emitted.
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
-    - ``forms``: forms of the equations, as in the option ``--form``, such as ``quaternion``. By default,
-      all forms are used. Most peers run on each form. Methods that treat the state as a vector in R^n also
-      run on each form. Methods that use the group run only on the equations of the scene.
+    - ``forms``: names of forms of the equations, for example ``quaternion``, as in the option ``--form``. By
+      default, all forms are used. Most peers run on each form. Methods that treat the state as a vector in
+      R^n also run on each form. Methods that use the group run only on the equations of the scene.
 
     InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
     candidate contains the reason.
@@ -194,8 +194,8 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return one candidate for each pair of a peer and an element of ``equations``.
 
-    Some peers project their states onto the manifold of the scene. Such a peer has only one candidate.
-    This candidate integrates the equations that the scene states.
+    Some peers project their states onto the manifold of the scene. For such a peer, only one candidate is
+    returned. The candidate integrates the equations that the scene states.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)

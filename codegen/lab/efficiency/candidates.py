@@ -1,7 +1,7 @@
 """Lists the recipes of a scene.
 
-A recipe is a way to integrate the scene. It consists of a method, one form of the equations, and the choice
-of equal steps or step-size control.
+A recipe is a way to integrate the scene. A recipe consists of a method, one form of the equations, and the
+choice of equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -21,16 +21,17 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The largest order of recipes without a cut-off in their names, such as ``rkmk:rk4``.
+"""The largest order of recipes for which the compiler searches for the number of commutators.
 
-The 2 in ``rkmk(2):rk4`` is a cut-off: the series of dexp^{-1} is truncated after 2 commutators. For the name
-``rkmk:rk4``, the compiler searches for the fewest commutators that give the order of the method. This
-search takes seconds for orders above SEARCHED. Therefore these orders have no recipe without a cut-off.
+The 2 in the name ``rkmk(2):rk4`` is a cut-off: the series of dexp^{-1} is truncated after 2 commutators. The
+name ``rkmk:rk4`` contains no cut-off. For such a name, the compiler searches for the fewest commutators that
+give the order of the method. If the order is above SEARCHED, the search takes seconds. Therefore no recipe of
+such an order uses the search.
 """
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees of the recipes of a family that needs no tableau, such as Taylor's method (``taylor``)."""
+"""A family that needs no tableau, such as Taylor's method (``taylor``), has recipes of these degrees."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +44,11 @@ class Recipe:
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control, and False for equal steps.
-    - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
+    - ``form``: the form of the equations, for example ``quaternion``, as in the option ``--form``.
     - ``explicit``: True if the tableau is explicit (:func:`is_explicit`).
 
-    A family that needs no tableau, such as ``taylor``, has a degree instead. In this case ``order`` and
-    ``stages`` are both equal to the degree.
+    Some families, such as ``taylor``, need no tableau. A method of such a family has a degree, and ``order``
+    and ``stages`` are both equal to the degree.
     """
 
     method: str
@@ -97,8 +98,9 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations that the scene states.
 
-    On an abelian group, several families give the same methods. Only the first of these families in
-    :func:`families_for` is used. The function does not check whether a recipe can be compiled for the scene.
+    On an abelian group, several families give the same methods. Of these families, only the one that comes
+    first in the result of :func:`families_for` is used. The function does not check whether a recipe can be
+    compiled for the scene.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -141,8 +143,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     each order, only the smallest cut-off that gives this order is used. Orders below half the classical order
     of the tableau have no recipe.
 
-    An explicit tableau with exact coefficients can have one more recipe, which has no cut-off
-    (:data:`SEARCHED`).
+    An explicit tableau with exact coefficients can have one more recipe. The name of this recipe contains no
+    cut-off (:data:`SEARCHED`).
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

@@ -54,9 +54,10 @@ class Equations:
 
 
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
-    """Return the equations of a scene in the forms with the given keys, such as ``quaternion``.
+    """Return the equations of a scene, once for each requested form.
 
-    If ``keys`` is empty, all forms are used. :class:`SceneError` is raised if a key is unknown.
+    ``keys`` contains the keys of the forms, for example ``quaternion``. If ``keys`` is empty, all forms are
+    used. :class:`SceneError` is raised if a key is unknown.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}

@@ -6,8 +6,8 @@ A recipe consists of a method, one form of the equations, and the choice of equa
 
 1. The interpreter makes runs with each recipe. The errors of these runs give the predicted number of steps
    for each required error. The operations of a step give the predicted CPU time of the step.
-2. The predicted CPU time of a run is the number of steps times the time of a step. This time divided by the
-   safety factor SAFE is a lower bound of the true CPU time.
+2. The predicted CPU time of a run is the number of steps times the time of a step. The predicted CPU time
+   divided by the safety factor SAFE is a lower bound of the true CPU time.
 3. Each required error has a time limit: WORST times the best CPU time of the usual search. A recipe is
    excluded if its lower bounds exceed the limits of all required errors. If a prediction is unreliable,
    the lower bound is computed from the time of a single step (:func:`least_ratio`).
@@ -58,7 +58,7 @@ class Exhausted:
     - ``results``: maps each required error to the measured runs.
     - ``raced``: the number of recipes that were emitted and timed.
     - ``refused``: the number of recipes that cannot be compiled for the scene.
-    - ``copies``: the number of recipes that were not timed, because a timed recipe has the same code.
+    - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
     - ``nearest``: the smallest ratio of the CPU time of an excluded recipe to the best CPU time. Only a
@@ -139,7 +139,7 @@ def exhaust(
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
     """Return the prediction for each pair of a method and a form of the equations.
 
-    Each prediction is for equal steps. With step-size control, a method has the same prediction.
+    Each prediction is for equal steps. The prediction is also used for the method with step-size control.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())

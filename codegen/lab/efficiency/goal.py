@@ -74,14 +74,14 @@ class Goal:
 
     @property
     def explicit(self) -> bool:
-        """True if the goal requires an explicit method, which solves no equations."""
+        """True if the goal requires an explicit method: a method that solves no equations."""
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
         """Return True if a compiled method with these properties satisfies the requirements of the goal.
 
-        If the goal limits the stack memory, the method must have a known upper bound of its stack memory.
-        This bound must be at most the limit.
+        If the goal limits the stack memory, an upper bound of the stack memory of the method must be known,
+        and the bound must be at most the limit.
         """
         given = {
             "manifold": properties.on_manifold,

@@ -1,11 +1,12 @@
 """Makes runs over the time span of a scene with the interpreter, without compiled code.
 
-Runs with equal steps solve implicit equations by fixed-point iteration. Newton's method would be slow in the
-interpreter, because it needs difference quotients.
+Runs with equal steps solve implicit equations by fixed-point iteration. Newton's method needs difference
+quotients, and would therefore be slow in the interpreter.
 
 Runs with step-size control are meant for stiff scenes. These runs use Newton's method, because fixed-point
-iteration does not converge in long steps. The step-size control is simpler than in emitted code
-(:mod:`codegen.run.step_control`): each step size depends only on the error estimate of the previous step.
+iteration does not converge for the long steps of a stiff scene. The step-size control is simpler than in
+emitted code (:mod:`codegen.run.step_control`): each step size depends only on the error estimate of the
+previous step.
 """
 
 from __future__ import annotations
@@ -136,9 +137,9 @@ def weighted(
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
     The error estimate is ``after`` - ``lower``. Each component of the error estimate is divided by (1 + m)
-    times ``tolerance``. Here m is the larger absolute value of this component in ``before`` and ``after``.
-    The norm is the root mean square of the quotients. If ``after`` or ``lower`` is not finite, the norm is
-    infinite.
+    times ``tolerance``. Here m is the larger of the absolute values of the component in ``before`` and in
+    ``after``. The norm is the root mean square of the quotients. If ``after`` or ``lower`` is not finite, the
+    norm is infinite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

@@ -1,8 +1,8 @@
 """Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. Its CPU time is
-predicted from short runs in the interpreter. The error and the CPU time of a recipe have limits. A recipe
-that is predicted to exceed these limits is not run.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
+recipe is predicted from short runs in the interpreter. The error and the CPU time of a recipe have limits. A
+recipe that is predicted to exceed these limits is not run.
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe to predict, with a bar for each goal.
 
-    A bar contains limits on the error and the CPU time of the recipe. These limits depend on earlier
-    predictions. Therefore a job is created late: when a worker process is free.
+    A bar contains limits on the error and the CPU time of the recipe. The limits depend on the predictions
+    for earlier recipes. Therefore a job is created late: when a worker process is free.
 
     The recipes are in several queues. The next recipe comes from the queue with the smallest delay
     (:data:`EVEN`). The delay of a queue grows whenever a recipe is taken from this queue. Therefore the
@@ -115,7 +115,7 @@ class Jobs(Sequence[Job]):
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
         """Return the next job. Successive calls must have the arguments k = 0, 1, 2, and so on.
 
-        Raises IndexError after the last job. This error ends a ``for`` loop over the jobs.
+        Raises IndexError after the last job, and thus ends a ``for`` loop over the jobs.
         """
         if k >= len(self):
             raise IndexError(k)
@@ -165,8 +165,9 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Store the prediction for a recipe, if it is reliable. Later bars use the stored predictions.
 
-        A prediction with a ``failure`` is not stored. A ``vague`` prediction is stored only if it contains a
-        prediction for step-size control, because its time may be too short.
+        A prediction with a ``failure`` is not stored. If a prediction is ``vague``, its time for equal steps
+        may be too short. A vague prediction is stored only if it also contains a prediction for step-size
+        control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -200,8 +201,8 @@ class Jobs(Sequence[Job]):
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
     """Return the bar for a goal: the limits on the error and the CPU time of methods of the given order.
 
-    ``known`` contains the available predictions for the goal. ``least_seconds`` is the least predicted time
-    of all recipes for this goal.
+    ``known`` contains the available predictions for the goal. ``least_seconds`` is the least predicted CPU
+    time for the goal, over all recipes.
     """
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):

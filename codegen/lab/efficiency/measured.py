@@ -1,4 +1,4 @@
-"""The Python function :func:`bench`, which measures and ranks methods on a scene. It can also measure the
+"""The Python function :func:`bench` measures and ranks methods on a scene. The function can also measure
 integrators of other libraries, such as SciPy.
 """
 
@@ -36,8 +36,8 @@ def bench(
     """Measure the error and the CPU time of methods and of other integrators on a scene.
 
     The methods in ``methods`` run with equal steps. The methods in ``adaptive`` run with step-size control.
-    ``against`` contains the names of the other integrators. The command ``orderconds bench`` has the same
-    arguments. A notebook shows the result as a diagram. If a method cannot be emitted for the scene, the
+    ``against`` contains the names of the other integrators. The command ``orderconds bench`` makes the same
+    measurements. A notebook shows the result as a diagram. If a method cannot be emitted for the scene, the
     result contains the reason. Raises InputError for invalid arguments.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):

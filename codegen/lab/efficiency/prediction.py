@@ -61,6 +61,8 @@ error at the end of the time span is PARTS times the error at the end of the fir
 TRIES = 3
 """After TRIES consecutive failures of methods of one kind, the interpreter makes fewer runs for this kind.
 
+A kind is a pair (family, explicit).
+
 With equal steps, a method fails if all its runs over the whole time span fail. After TRIES failures, methods
 of the same kind are run only over the first interval of the time span (:data:`PARTS`).
 
@@ -113,8 +115,8 @@ class Prediction:
     - ``rough``: True if no interpreted run with equal steps over the whole time span had a small error
       (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. A time
-      predicted from this large error may be too short.
+    - ``vague``: True if ``error`` is finite but not small, and ``steps`` is at most MANY_STEPS. A time that
+      is predicted from a large error may be too short.
     - ``failure``: the reason if the method cannot be used for the scene, and otherwise ''.
     """
 
@@ -169,8 +171,8 @@ class Bar:
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e) for the rule at :data:`FAR`. Here e is the least predicted
-      error in the time ``seconds`` of methods of slightly higher order. Only methods of this family are
-      compared, or all methods if ``family`` is ''. ``explicit`` is True for explicit and False for implicit
+      error of methods of slightly higher order whose runs take the CPU time ``seconds``. If ``family`` is not
+      '', only methods of this family are compared. ``explicit`` is True for explicit and False for implicit
       methods.
     - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
@@ -199,9 +201,9 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps that the interpreter may make in a run.
 
-        ``step_seconds`` is the time of a step in compiled code. The result is the number of steps that
-        compiled code makes in the time limit of this bar. The result is at most :data:`MANY_STEPS`, but not
-        below the number ``steps`` of the first run.
+        ``step_seconds`` is the time of a step in compiled code. Compiled code can make a certain number of
+        steps within the time limit of this bar. The result is this number, but at most :data:`MANY_STEPS` and
+        at least the number ``steps`` of the first run.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -215,8 +217,8 @@ class Predictor:
     """Predicts the CPU times of recipes for one form of the equations of a scene.
 
     - ``exact``: the reference solution.
-    - ``beginning``: a function that returns the equations on the first interval of the time span
-      (:data:`PARTS`), and the reference solution at the end of this interval.
+    - ``beginning``: a function with two results: the equations on the first interval of the time span
+      (:data:`PARTS`), and the reference solution at the end of the first interval.
     - ``failures``: for each kind of method, the number of consecutive failures with equal steps
       (:data:`TRIES`). A kind is a pair (family, explicit).
     - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
@@ -256,8 +258,9 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # The method is run over the first interval only if all runs failed or have large errors. If the error
-        # is large and ``most`` is below MANY_STEPS, the method is too slow, and this run is omitted.
+        # The method is run over the first interval only if all runs over the whole time span failed or have
+        # large errors. If the error is large and ``most`` is below MANY_STEPS, the method is too slow, and
+        # the run over the first interval is omitted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -282,7 +285,7 @@ class Predictor:
 
         - No run has a small error (:data:`SMALL`).
         - The method has no embedded solution.
-        - Too many methods of the same kind failed (:data:`TRIES`).
+        - The last :data:`TRIES` methods of the same kind failed with step-size control.
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:

@@ -1,7 +1,8 @@
 """Measures the CPU time that each recipe needs to reach a required error.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. It is measured with
-emitted C code. The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The recipe is
+measured with emitted C code. The control of a run is the number of equal steps, or the exponent k of the
+tolerance 10^-k.
 
 The control is increased until two consecutive runs have small enough errors. The error of a single run can be
 small by accident. Afterwards, bisection finds the smallest control that reaches the required error. The

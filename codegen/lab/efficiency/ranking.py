@@ -55,8 +55,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
     The runs are sorted from coarse to fine. Runs after the most accurate run are not used. The time is
     interpolated between two runs: the last run whose error is above ``error``, and the next run. The
-    interpolation is linear in the logarithms of time and error. If the next run or a later run took less
-    time than the interpolated time, the result is the least time of these later runs.
+    interpolation is linear in the logarithms of time and error. Let t be the least time of the next run and
+    all later runs. The result is t or the interpolated time, whichever is less.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

@@ -28,8 +28,8 @@ class Request:
     - ``stack``: the largest accepted stack memory of a call in bytes, or None for no limit.
     - ``span``: a time span that replaces the time span of the scene, or None.
     - ``budget``: the longest time of the search in seconds.
-    - ``tableaux``: names of tableaux. If the tuple is not empty, only methods with these tableaux are
-      searched.
+    - ``tableaux``: names of tableaux. If ``tableaux`` is not empty, the search considers only methods with
+      these tableaux.
     """
 
     scene: str
@@ -85,7 +85,7 @@ class Recommendation:
     kinks: int = 0
 
     def as_json(self) -> dict[str, object]:
-        """Return the recommendation as a dictionary of plain data, which can be written as JSON."""
+        """Return the recommendation as a dictionary that can be written as JSON."""
         asked, task = self.request, self.request.task
         return {
             "scene": asked.scene,

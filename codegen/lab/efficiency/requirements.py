@@ -1,6 +1,6 @@
 """The requirements and the errors in the table of recommended methods.
 
-The table is printed in the report. It has one column for each requirement and one row for each error.
+The table has one column for each requirement and one row for each error. The report contains the table.
 """
 
 from __future__ import annotations

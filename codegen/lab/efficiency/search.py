@@ -10,8 +10,8 @@ In the second stage, recipes are emitted as C and measured. The measured times a
 predicted times of other recipes. Recipes with short corrected times are measured early. If the corrected time
 of a recipe is far above the best measured time, the recipe is not measured.
 
-In the third stage, the fastest recipes are timed again with more repetitions. All goals use the same
-predictions, compiled modules and runs.
+In the third stage, the fastest recipes are timed again with more repetitions. The goals share the
+predictions, the compiled modules and the runs.
 """
 
 from __future__ import annotations
@@ -52,14 +52,16 @@ For the other kinds, the safety factor is :data:`SAFETY`.
 LEADERS, CLOSE = 4, 1.4
 """Limits that decide which recipes are timed again.
 
-The LEADERS fastest recipes are timed again, unless their CPU time exceeds CLOSE times the best CPU time.
+A recipe is timed again if it is one of the LEADERS fastest recipes, and its CPU time is at most CLOSE times
+the best CPU time.
 """
 
 CONTROLLED = 100.0
 """The divisor of predicted times of recipes with step-size control.
 
-The divisor is used if the prediction comes from inaccurate runs with equal steps, and no recipe of the same
-kind has been measured. On stiff scenes, such a predicted time can be a hundred times the true time.
+The divisor is used if two conditions hold: the prediction comes from inaccurate runs with equal steps, and no
+recipe of the same kind has been measured. On stiff scenes, a time that is predicted from equal steps can be a
+hundred times the true time.
 """
 
 ROUND = 6
@@ -85,7 +87,7 @@ late.
 """
 
 LONG_STEPS = 20_000
-"""The number of steps of the long run, which tests whether a method preserves conserved quantities."""
+"""The number of steps of the long run that tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
 """The largest number of halvings of a step size.
@@ -183,9 +185,10 @@ class Search:
     def expected(self, recipe: Recipe, error: float) -> float:
         """Return an optimistic estimate of the CPU time of a recipe for a required error, in seconds.
 
-        The predicted time is corrected by the ratio of measured to predicted times for this kind of recipe.
-        To make the estimate optimistic, the corrected time is divided by a safety factor. If there is no
-        prediction, the result is infinity.
+        The predicted time is multiplied by the ratio of measured to predicted times for this kind of recipe.
+        If no recipe of this kind has been measured, the least ratio of all kinds is used. To make the
+        estimate optimistic, the corrected time is divided by a safety factor. If there is no prediction, the
+        result is infinity.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -259,13 +262,13 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return the recipes to emit next. There are at most :data:`ROUND` of them.
+        """Return the recipes to emit next: at most :data:`ROUND` recipes.
 
         The recipes with the largest gains are returned. Let a be the best measured time for a goal, and b the
-        estimated time of the recipe (:meth:`expected`). If b is below a, the gain for this goal is log(a/b).
-        If no measured recipe reaches the goal, the least estimated time of all recipes is multiplied by the
-        safety factor and used as a. The gains for all goals are added. If no recipe of a kind has been
-        measured, at most one recipe of this kind is returned.
+        estimated time of a recipe (:meth:`expected`). If b is below a, the gain of the recipe for this goal
+        is log(a/b). If no measured recipe reaches the goal, the least estimated time of all recipes is
+        multiplied by the safety factor and used as a. The gains for all goals are added. If no recipe of a
+        kind has been measured, at most one recipe of this kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -327,7 +330,7 @@ class Search:
     def _measure(self, recipe: Recipe) -> None:
         """Measure the CPU time of a recipe for each error of the goals, and store the results.
 
-        An error is omitted if the recipe cannot be the fastest for this error.
+        An error is omitted if the estimate :meth:`hoped` is not below the best measured time for this error.
         """
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
@@ -350,7 +353,7 @@ class Search:
     def time_again(self, goal: Goal) -> None:
         """Time the fastest recipes for a goal again, with more repetitions.
 
-        A run is omitted if an earlier call of this function has timed the run.
+        Runs that were already timed by an earlier call of this function are omitted.
         """
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:

@@ -37,8 +37,8 @@ class Task:
     - ``budget``: the longest time of the search in seconds.
     - ``methods``: pairs (label, adaptive) of the methods to search. ``adaptive`` is True for step-size
       control. If ``methods`` is empty, the methods of the library are searched.
-    - ``tableaux``: names of tableaux. A search of the library is limited to methods with these tableaux. If
-      ``tableaux`` is empty, all methods of the library are searched.
+    - ``tableaux``: names of tableaux, used only if ``methods`` is empty. If ``tableaux`` is not empty, only
+      the methods of the library with these tableaux are searched.
     """
 
     scene: str
@@ -108,8 +108,8 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
     ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
     recipe. If there are no bars, the result is None.
 
-    The prediction uses runs with equal steps. If the errors of these runs are large, a recipe with step-size
-    control is run a second time, with step-size control.
+    The prediction uses runs with equal steps. If these runs have large errors, and the recipe has step-size
+    control, further runs are made with step-size control.
     """
     recipe, bars = job
     if not bars:

@@ -1,8 +1,8 @@
-"""Measures the points of work-precision diagrams, which show error against CPU time.
+"""Measures the points of work-precision diagrams. Such a diagram shows error against CPU time.
 
 A :class:`Candidate` is an emitted method or another integrator (a peer). Each candidate is run with several
-step sizes or tolerances. Each run produces a :class:`Row`, which contains the CPU time and the error at the
-end of the time span, in the norm of the scene. If the run fails, the row contains the reason.
+step sizes or tolerances. Each run produces a :class:`Row`. The row contains the CPU time, and the error at
+the end of the time span in the norm of the scene. If the run fails, the row contains the reason.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Row:
     form: str = ""
 
     def as_json(self) -> dict[str, str | float | int | None]:
-        """Return the row as a dictionary of plain data, which can be written as JSON."""
+        """Return the row as a dictionary that can be written as JSON."""
         return asdict(self)
 
 
@@ -116,9 +116,9 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Make the runs of a candidate, and return one row for each run.
 
-    ``done`` is called with the row of each run. If ``cache`` contains the row of a run with the same
-    reference solution ``exact``, the run is not measured again. If the candidate cannot run on the scene, the
-    last row contains the reason.
+    ``done`` is called with the row of each run. If ``cache`` contains the row of a run, and the reference
+    solution was the same, the run is not measured again. If the candidate cannot run on the scene, the last
+    row contains the reason.
     """
     rows: list[Row] = []
     ready = False

@@ -9,11 +9,12 @@ distribution (method of batch means).
 A slope different from zero can have three causes:
 
 - The deviation may vary slowly. To exclude a slow variation, the record is divided into five consecutive
-  sections. The slope counts as a drift only if the means over the sections are monotone. The means of a
-  sinusoid are monotone only if its period is longer than 1.2 times the record.
+  sections. The slope counts as a drift only if the means over the sections are monotone. For a sinusoid with
+  a period longer than two sections, the means are monotone only if the period is longer than 1.2 times
+  the record.
 - The deviation may be a random walk. Two tests compare the record with random walks (:data:`STRAIGHT`,
-  :data:`STEADY`). The slope counts as a drift only if one of the tests rejects a random walk. The test with
-  STRAIGHT is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+  :data:`STEADY`). The slope counts as a drift only if at least one of the two tests excludes a random walk.
+  The test with STRAIGHT is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 - The deviation may grow systematically. Only systematic growth is called a drift.
 
 A deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted
@@ -93,8 +94,8 @@ STEADY = 3.2
 """A limit for the steadiness of a record. If the steadiness is above the limit, a random walk is excluded.
 
 The record is divided into BLOCKS blocks. Let m be the average difference between the means of consecutive
-blocks, and s the standard error of m. The steadiness is |m|/s. It exceeds STEADY for only 1 % of all random
-walks.
+blocks, and s the standard error of m. The steadiness is |m|/s. Only 1 % of all random walks have a steadiness
+above STEADY.
 """
 
 TINY = 1e-24
@@ -116,7 +117,7 @@ blocks, and the second distance is at most half the number of blocks.
 class Drift:
     """The results of the tests for a drift of a conserved quantity. The verdict is :attr:`law`.
 
-    - ``slope``: the slope of the fitted line per unit of time. It is NaN if too few values are finite.
+    - ``slope``: the slope of the fitted line per unit of time, or NaN if too few deviations are finite.
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
     - ``largest``: the largest absolute deviation of the record.
     - ``exponent``: the exponent p of growth. The largest deviation up to the time t grows like t^p. The
@@ -124,7 +125,7 @@ class Drift:
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
     - ``later``: the growth factor (:data:`LATE`) of the deviation.
-    - ``ratios``: two variance ratios (:data:`WALKING`). They are about 1 for a random walk.
+    - ``ratios``: two variance ratios (:data:`WALKING`). For a random walk, both ratios are about 1.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
     - ``unlike_walk``: True if :data:`STRAIGHT` or :data:`STEADY` excludes a random walk.
     - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
@@ -150,10 +151,10 @@ class Drift:
 
     @property
     def law(self) -> str:
-        """The verdict on the deviation. It is one of the following strings.
+        """The verdict on the deviation: one of the following strings.
 
-        - ``lost``: the deviation reaches the size of the quantity, or it saturates and reaches half of this
-          size.
+        - ``lost``: the deviation reaches the size of the quantity. If the deviation saturates, half of this
+          size is enough.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
@@ -192,7 +193,7 @@ class Drift:
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. Numbers that are not finite become None."""
+        """Return a dictionary that can be written as JSON. Numbers that are not finite become None."""
         numbers = {
             "largest": self.largest,
             "slope": self.slope,
@@ -301,7 +302,7 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If all increments are equal up to rounding errors, the means are on a line. Their scatter counts as 0.
+    # If all increments are equal up to rounding errors, the means are on a line, and the scatter counts as 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
@@ -362,7 +363,8 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
     """Return the exponent of growth: the slope of log(d) against log(t).
 
-    Here d is the largest deviation up to the time t. The first tenth of the record is not used.
+    Here t is the time, and d is the largest deviation up to this time. The first tenth of the record is not
+    used.
     """
     largest = numpy.maximum.accumulate(size)
     late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)
