@@ -2,8 +2,8 @@
 
 Each system has its own state, parameters and inputs. The caller passes the N states of a batch as an array
 with one state in each row. Emitted C needs an array of shape (size, N), where row k contains component k of
-each state. An array of shape (N, size) in Fortran order has the same layout in memory, and is passed to C
-without a copy.
+each state. In memory, an array of shape (N, size) in Fortran order already has this layout. Therefore the
+array is passed to C without a copy.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return the states of a batch as a new array of shape (size, N) with contiguous rows.
 
     ``real`` is the number format of the module (``double`` or ``float``). ``states`` is an array of N states
-    with ``size`` real numbers each, or a tuple of arrays. A tuple contains one array for each part of the
-    states, such as q and mu. ValueError is raised for other values of ``states``, and for N = 0.
+    with ``size`` real numbers each, or a tuple of arrays. A tuple contains one array for each part (for
+    example q or mu) of the states. ValueError is raised for other values of ``states``, and for N = 0.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]

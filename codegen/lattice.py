@@ -41,10 +41,10 @@ class Lattice(ArrayModule, ABC):
         ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
         fails, the result contains the status and the states before the failed step.
 
-        ValueError is raised if ``states`` has a wrong shape or contains a number that is not finite. It is
-        also raised if the method cannot be used with n1, ..., nd sites. For example, some methods need even
-        numbers. TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is
-        raised if there is not enough memory.
+        ValueError is raised if ``states`` has a wrong shape or contains a number that is not finite, or if
+        the method cannot be used with n1, ..., nd sites. For example, some methods need even numbers.
+        TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is raised if
+        there is not enough memory.
         """
         import numpy as np
 

@@ -1,6 +1,7 @@
 """Loads emitted modules as Python objects, for example as :class:`codegen.integrator.Integrator`.
 
-For each target, such as C, :attr:`codegen.printers.Target.loader` names the function that loads its modules.
+For each target (for example C), :attr:`codegen.printers.Target.loader` names the function that loads the
+modules.
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# VECTOR_FLAGS allow vector instructions in loops over systems, sites or modes. Two of these flags are safe,
-# because an emitted module reads neither errno nor the flags of floating-point exceptions.
+# VECTOR_FLAGS allow vector instructions in loops over systems, sites or modes. The flags
+# -fno-math-errno and -fno-trapping-math are safe, because an emitted module reads neither errno nor the
+# flags of floating-point exceptions.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 """The compiler flags for modules that loop over lattice sites, Fourier modes or a batch of systems."""
 
@@ -33,12 +35,12 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
     """Load an emitted module as an integrator.
 
     ``source`` is the result of :func:`codegen.emit`, or a folder of emitted files with a manifest. If the
-    folder contains several modules, ``module`` and ``target`` choose one of them. A C module is compiled
-    unless the cache contains the compiled module.
+    folder contains several modules, ``module`` and ``target`` choose one module. If the cache does not
+    contain the compiled form of a C module, the module is compiled.
 
     CompilerMissing is raised if there is no C compiler, and CompileError if the compiler fails. InputError is
-    raised if the folder does not contain the module. It is also raised if the module is for a lattice
-    (:func:`load_lattice`) or a semilinear equation (:func:`load_spectral`).
+    raised if the folder does not contain the module, or if the module is for a lattice (:func:`load_lattice`)
+    or a semilinear equation (:func:`load_spectral`).
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
@@ -49,7 +51,7 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Load an emitted module for a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised for the same reasons.
+    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised as by :func:`load`.
     InputError is raised if ``source`` does not contain the module, or if the module is not for a lattice.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
@@ -61,7 +63,7 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Load an emitted module for a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised for the same reasons.
+    The arguments are those of :func:`load`. CompilerMissing and CompileError are raised as by :func:`load`.
     InputError is raised if ``source`` does not contain the module, or if the module is not for a semilinear
     equation.
     """

@@ -1,10 +1,10 @@
 """Vector fields that are only piecewise smooth, for the reference solution of a scene.
 
-A selection is an operation with several cases, such as an absolute value (:mod:`codegen.ir.smoothness`). The
-code calls a case a *side*. The field is smooth while the cases of all selections are constant.
+A selection (:mod:`codegen.ir.smoothness`) is an operation with several cases, for example an absolute value.
+The code calls a case a *side*. The field is smooth while the cases of all selections are constant.
 
-The margins of a selection are functions of the state and the time. They are positive while the current case
-applies. An event is a time at which a margin becomes zero. There the selection changes its case, and the
+The margins of a selection are functions of the state and the time. All margins are positive while the current
+case applies. An event is a time at which a margin becomes zero. There the selection changes its case, and the
 integration continues with the smooth field of the new case.
 """
 
@@ -68,8 +68,8 @@ If the field has more continuous derivatives, the result is MOST.
 class PiecewiseField:
     """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    Each combination of cases has its own smooth field. ``compiled`` stores the results of :meth:`on`. A key
-    of this dictionary contains one case of each selection.
+    Each combination of cases has its own smooth field. The dictionary ``compiled`` stores the results of
+    :meth:`on`. Each key contains one case of each selection.
     """
 
     scene: Problem
@@ -123,10 +123,10 @@ class PiecewiseField:
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
         """Return the case of each selection after an event, and the smoothness of the field at the event.
 
-        A selection is an operation with several cases. ``sides`` contains the cases before the event, which
-        occurs at the state y and the time t. The smoothness is the number of continuous derivatives of the
-        field, or -1 if the field is discontinuous. Raises :class:`SceneError` if the solution slides along a
-        discontinuity of the field.
+        A selection is an operation with several cases. The event occurs at the state y and the time t.
+        ``sides`` contains the cases before the event. The smoothness is the number of continuous derivatives
+        of the field, or -1 if the field is discontinuous. Raises :class:`SceneError` if the solution slides
+        along a discontinuity of the field.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -198,8 +198,8 @@ class Sided:
 
         A negative margin shows that the case of a selection has changed. The step begins at the state ``y``
         and the time ``t``, has the given length, and ends at the state ``new``. The end of the step is always
-        tested. If the step is longer than twice the shortest permitted length, points inside the step are
-        tested, too. These are the points of the last :data:`SUBSTEPS` evaluations of the field.
+        tested. If the step is longer than twice the shortest permitted length, the points of the last
+        :data:`SUBSTEPS` evaluations of the field are tested, too.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):

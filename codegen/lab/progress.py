@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[str], object]
-"""A function that displays one line of text about the progress, such as the name of the next measurement.
+"""A function that displays one line of text about the progress, for example the name of the next measurement.
 
-To display nothing, pass :class:`str`. It accepts a text and has no effect.
+To display nothing, pass :class:`str`. A call of ``str`` with a text has no effect.
 """

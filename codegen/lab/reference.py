@@ -1,14 +1,14 @@
 """Reference solutions of scenes to 28 digits, by Gragg-Bulirsch-Stoer extrapolation.
 
 In the differential equation, the derivative of the state y is the action of the Lie algebra element f(y) on
-y. The modified midpoint rule is applied to the coordinates of y. The results of this rule are extrapolated in
-the squared step size (Hairer, Norsett and Wanner I, section II.9).
+y. The modified midpoint rule is applied to the coordinates of y. The results of the midpoint rule are
+extrapolated in the squared step size (Hairer, Norsett and Wanner I, section II.9).
 
 The reference uses no group exponential and no code of the tested integrators. An error in this code therefore
 cannot change the reference.
 
-The equation is solved twice, with two extrapolation orders and two tolerances. The reference is accepted only
-if the two final states agree. The uncertainty is the maximum norm of the difference of the final states.
+The equation is solved twice, with two extrapolation orders and two tolerances. If the two final states do not
+agree, SceneError is raised. The uncertainty is the maximum norm of the difference of the final states.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ integration gives the reference solution. The first integration only checks the 
 AGREEMENT = 1e-28
 """The largest accepted difference between the final states of the two integrations (see :data:`RUNS`).
 
-The difference is measured in the maximum norm. If the norm of the final state is at least 1, the difference
-is divided by this norm.
+The difference is measured in the maximum norm. If the norm of the second final state is at least 1, the
+difference is divided by that norm.
 """
 
 LEAST_STEP = 1e-6
@@ -139,7 +139,7 @@ def _key(scene: Problem) -> tuple[object, ...]:
 
 
 def reference(scene: Problem, end: float = math.inf) -> Reference:
-    """Compute the state of a scene at the end of its time span, and measure the uncertainty of this state.
+    """Compute the state of a scene at the end of its time span, and the uncertainty of the computed state.
 
     The equation is solved twice, with two extrapolation orders and two tolerances. The uncertainty is the
     maximum norm of the difference of the two final states. ``end`` is the deadline of the computation on the
@@ -243,7 +243,7 @@ def _extrapolate(
     """Return the extrapolated state after one step from ``y`` at time ``t``, and an estimate of its error.
 
     The extrapolation table has ``columns`` rows and ``columns`` columns. The last entry of the last row is
-    the new state. The estimate is the maximum norm of the difference of the last two entries of this row.
+    the new state. The estimate is the maximum norm of the difference of the last two entries of the last row.
     Raises ArithmeticError if the field cannot be evaluated at one of the intermediate states.
     """
     slope = field(y, t)

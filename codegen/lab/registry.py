@@ -1,4 +1,4 @@
-"""The list of registered measurements. The sections of the report have the same order as the list.
+"""The list of registered measurements. The list determines the order of the sections in the report.
 
 To add a measurement to this package, write a file in :mod:`codegen.lab.measurements` and add a line to
 :data:`BUILT_IN`. To add a measurement from another package, call :func:`register`, or declare an entry point
@@ -39,7 +39,8 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
     """Add the class of a measurement at the end of the list of measurements. Return the class unchanged.
 
-    The function can be used as a class decorator. Raises InputError if another measurement has the same name.
+    The function can be used as a class decorator. Raises InputError if another measurement already has the
+    name of the new one.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:

@@ -1,7 +1,6 @@
 """The report: tests integrators on scenes, and writes an HTML page for each scene and an overview page.
 
-A file is written completely or not at all. Several scenes are measured at the same time, each in its own
-process.
+A file is written completely or not at all. Scenes are measured in parallel, each scene in its own process.
 """
 
 from __future__ import annotations

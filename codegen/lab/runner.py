@@ -1,7 +1,7 @@
 """Runs a method over the time span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. All runners have the same interface.
-Therefore the same convergence test works with the interpreter, with emitted Python and with emitted C.
+A :data:`Runner` computes the final state after a given number of steps. All runners have one interface.
+Therefore one convergence test works with the interpreter, with emitted Python and with emitted C.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ DOUBLE = 16
 class RunFailed(ArithmeticError):
     """Raised if a run stops before the end of the time span.
 
-    The reason is an iteration that does not converge, or a number that is not finite.
+    For example, an iteration does not converge, or a number is not finite.
     """
 
 
@@ -58,7 +58,10 @@ class Interpreted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. A run of this length takes about ten seconds."""
+        """The largest number of steps in a convergence test.
+
+        A run with this number of steps takes about ten seconds.
+        """
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
@@ -80,11 +83,11 @@ class Interpreted:
         h = (end - start) / steps if steps else end - start
         if self.digits <= DOUBLE:
             return self._run(FloatDomain(float(h)), steps)
-        # BallDomain computes with Arb balls, which are several times faster than mpmath numbers.
+        # BallDomain computes with Arb balls. Arb balls are several times faster than mpmath numbers.
         domain = BallDomain(h, self.digits)
         with domain.precision():
             state = self._run(domain, steps)
-        # A division by zero is no error in this arithmetic. Its result is not a finite number.
+        # In ball arithmetic, a division by zero raises no error. The quotient is not a finite number.
         if not all(x.is_finite() for x in state):
             raise RunFailed("the run computes a number that is not finite")
         context = PreciseDomain(0, self.digits).context
@@ -136,7 +139,10 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test. A run of this length takes about one second."""
+        """The largest number of steps in a convergence test.
+
+        A run with this number of steps takes about one second.
+        """
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -146,7 +152,7 @@ class Emitted:
 
     @cached_property
     def integrator(self) -> Integrator:
-        """The loaded module. One of its functions makes a single step, and another makes many steps."""
+        """The loaded module. One function of the module makes a single step, and another makes many steps."""
         return load(self.artifact)
 
     @cached_property

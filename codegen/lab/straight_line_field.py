@@ -2,7 +2,7 @@
 
 The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
 state y. Each common subexpression of the right-hand side is computed only once. The code is printed as
-C statements, or as a Python function for several types of numbers, such as floats and Arb balls.
+C statements, or as a Python function for one type of numbers, for example floats or Arb balls.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ class StraightLine:
     def python(self, constant: Callable[[Number], Scalar], functions: Functions) -> Evaluate:
         """Return the code as a Python function ``(y, t) -> tuple`` for one type of numbers.
 
-        ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
-        functions for numbers of this type (:mod:`codegen.lab.number_functions`).
+        ``constant`` converts an exact number to this type. ``functions`` maps names of functions (for example
+        ``sqrt``) to functions for numbers of this type (:mod:`codegen.lab.number_functions`).
         """
         body = [f"    {name} = {_multiplied(text)}" for name, text in self.lines]
         source = "\n".join(
@@ -112,7 +112,9 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """If ``text`` is a power, such as ``v1 ** 2``, return it as a product. Return any other text unchanged.
+    """If ``text`` is a power (for example ``v1 ** 2``), return the power as a product.
+
+    Other texts are returned unchanged.
 
     C has no operator for powers. In python-flint, the power of a ball that contains zero is NaN. A product
     avoids both problems.

@@ -138,8 +138,9 @@ class Subject:
     - ``name``: the name of the scene as the user wrote it.
     - ``methods``: the methods that run with equal steps.
     - ``adaptive``: the methods that run with step-size control.
-    - ``peers``: the names of other integrators, which are compared with the methods.
-    - ``results``: maps the name of a measurement to its result, which other measurements can use.
+    - ``peers``: the names of other integrators for comparison with the methods.
+    - ``results``: maps the name of each finished measurement to its result. Other measurements can use the
+      result.
     - ``named``: True if the user chose the methods, False if they are the default methods.
     """
 
@@ -242,7 +243,7 @@ def subject(
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)
     for method in controlled:
-        method.embedded()  # This call raises MethodError if the tableau has no embedded method.
+        method.embedded()  # Raises MethodError if the tableau has no embedded method.
     if not methods and not adaptive:
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))

@@ -1,8 +1,8 @@
 """Measures the CPU time of a call in one process.
 
-A batch is a number of repeated calls, which are timed together. The time of a batch divided by its number of
-calls is a measured time of one call. Several batches are timed, and the least measured time is the result.
-It is the best estimate, because other processes never decrease a measured time.
+A batch consists of repeated calls that are timed together. The time of a batch divided by its number of calls
+is a measured time of one call. Several batches are timed, and the least measured time is the result. The
+least time is the best estimate, because other processes can only increase a measured time.
 
 The call of an integrator from Python has an overhead: the time before its first step. A run of zero steps
 measures the overhead. Short and long runs can be compared after the overhead is subtracted.
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 BATCH = 0.002
-"""A batch of calls takes at least this number of seconds, which is far above the resolution of the clock."""
+"""A batch of calls takes at least BATCH seconds. This time is far above the resolution of the clock."""
 
 BATCHES = 5
 FEWER = 3
@@ -29,8 +29,8 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for short runs. A run is short if it takes less than RESOLVED seconds.
 
-A short run is repeated over further time spans of the scene (:func:`spans`), as long as the total number of
-steps is at most LEAST_STEPS. RESOLVED is about a hundred times the overhead of a call.
+If the total number of steps remains at most LEAST_STEPS, a short run is repeated over further time spans of
+the scene (:func:`spans`). RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -49,8 +49,8 @@ A shorter run is measured again if its relative uncertainty exceeds :data:`RESOL
 RESOLUTION = 0.1
 """The largest accepted relative uncertainty of a time from which the overhead is subtracted.
 
-The absolute uncertainty is the sum of two differences. One is the difference between the two least times of
-the run. The other is the difference between the two least times of the overhead.
+The absolute uncertainty is d + e. Here d is the difference between the two least times of the run, and e is
+the difference between the two least times of the overhead.
 """
 
 AGAIN = 3
@@ -59,7 +59,7 @@ AGAIN = 3
 LEAST_SHARE = 0.1
 """The time of a run without the overhead is at least LEAST_SHARE times the measured time.
 
-This bound avoids times that are zero or negative.
+The lower bound avoids times that are zero or negative.
 """
 
 
@@ -106,7 +106,7 @@ def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans n such that the time of ``run(n)`` can be measured accurately.
 
     ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span. The number n
-    begins at 1. It is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. If ``run(2 * n)``
+    begins at 1, and is doubled until ``run(n)`` takes at least :data:`RESOLVED` seconds. If ``run(2 * n)``
     would have more than :data:`LEAST_STEPS` steps or would fail, n is not doubled.
     """
     count = 1

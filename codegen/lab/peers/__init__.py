@@ -1,8 +1,8 @@
 """Peers: integrators that do not belong to this project, for comparison with emitted code.
 
 A peer integrates the differential equation of a scene in the coordinates of the state. If the library of the
-peer permits compilation, the right-hand side is compiled. The time before the first step, such as the time of
-compilation, is reported separately as set-up time.
+peer permits compilation, the right-hand side is compiled. The set-up time (the time before the first step,
+including compilation) is reported separately.
 
 A peer whose name ends in ``projected`` projects the state onto the manifold after each step. The solver LSODA
 has no projected peer. LSODA is a multistep method and stores data of earlier steps. A projection of the
@@ -64,7 +64,7 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Peer:
-    """An integrator for comparison. It is part of other software, or it is a classical integrator in C.
+    """An integrator for comparison: an integrator of other software, or a classical integrator in C.
 
     - ``controlled``: the quantity that the user chooses, ``"tolerance"`` or ``"steps"`` (number of steps).
     - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the tolerance or the number

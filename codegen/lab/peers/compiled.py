@@ -1,9 +1,9 @@
 """Two classical integrators in C: DOP853 with step-size control, and RK4 with projection after each step.
 
 The integrators solve the differential equation of a scene in the coordinates of the state. The module
-:mod:`codegen.lab.straight_line_field` generates the C code of the right-hand side. The integrators and the
-emitted modules are compiled with the same compiler flags. The coefficients of DOP853 come from the tableau
-``dop853``.
+:mod:`codegen.lab.straight_line_field` generates the C code of the right-hand side. The integrators are
+compiled with the compiler flags :data:`codegen.printers.c.module.FLAGS` of emitted modules. The coefficients
+of DOP853 come from the tableau ``dop853``.
 
 The error estimate of DOP853 uses an embedded method of order 5, and a quadrature rule of order 3. The nodes
 of the quadrature rule are the nodes of stages 1, 9 and 12. The source is section II.10 of Hairer,

@@ -14,7 +14,10 @@ from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
 LONG = 1000
-"""If a vector field has more than LONG operations, heyoka's compact mode is used. It compiles faster."""
+"""If a vector field has more than LONG operations, heyoka's compact mode is used.
+
+This mode compiles faster.
+"""
 
 
 def peer(name: str) -> Peer:

@@ -1,6 +1,6 @@
 """Draws the figures that scene files declare. All curves are computed with emitted C code.
 
-Each class of figures in :mod:`codegen.scene.figure` is drawn by one module of this package.
+For each class of figures in :mod:`codegen.scene.figure`, one module of this package draws the figures.
 """
 
 from codegen.lab.pictures.registry import draw, listing, register

@@ -108,8 +108,8 @@ class Canvas:
         """Draw a curve as a line.
 
         ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` contains the
-        indices of the points with markers. ``texts`` contains the texts of these markers. ``looks`` contains
-        keyword arguments of Matplotlib's ``plot``, which override ``style``.
+        indices of the points with markers. ``texts`` contains one text for each marker. ``looks`` contains
+        keyword arguments of Matplotlib's ``plot``. The arguments in ``looks`` override ``style``.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -122,7 +122,7 @@ class Canvas:
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
         """Draw the points of a curve as dots.
 
-        Each dot is a line of length zero with round ends. Such lines need less SVG code than Matplotlib's
+        Each dot is a line of length zero with round ends. These lines need less SVG code than Matplotlib's
         markers.
         """
         from matplotlib.patches import PathPatch
@@ -146,7 +146,7 @@ class Canvas:
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of the series with this label.
+        """Return the number of the series with the label ``label``.
 
         A series consists of all curves with the same label. The series are numbered 0, 1, 2, .... A new label
         gets the next number.

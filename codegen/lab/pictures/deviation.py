@@ -19,7 +19,7 @@ from codegen.lab.pictures.source import Source
 from codegen.scene.figure import Deviation, Run
 
 LEAST = 1e-17
-"""The lower limit of the drawn deviations. A smaller deviation is replaced by this value."""
+"""The lower limit of the drawn deviations. Smaller deviations are replaced by LEAST."""
 
 GROWS = 1.02
 """A new point of a curve is drawn if the largest deviation has grown by about this factor."""
@@ -45,12 +45,13 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return an array of times, and an array with the largest deviation for each of these times.
+    """Return an array of times, and an array with the largest deviation for each time.
 
     If ``figure.window`` is 0, the second array contains the largest deviation up to each time. To save
-    space, most times are omitted while this deviation changes little. If ``figure.window`` is positive, the
-    states are divided into groups of ``figure.window`` consecutive states. The first array contains the time
-    at the end of each group, and the second array contains the largest deviation in each group.
+    space, most times are omitted while the largest deviation changes little. If ``figure.window`` is
+    positive, the states are divided into groups of ``figure.window`` consecutive states. The first array
+    contains the time at the end of each group, and the second array contains the largest deviation in each
+    group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

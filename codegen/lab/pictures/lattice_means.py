@@ -56,7 +56,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return the output times of a run, and the means over the sites as a two-dimensional array.
 
-    Each row of this array contains the means of all quantities at one output time.
+    Each row of the two-dimensional array contains the means of all quantities at one output time.
     """
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))

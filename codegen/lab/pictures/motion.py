@@ -186,8 +186,8 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
     """Yield SVG elements for numbered dots on the path of a point.
 
-    The bars are drawn at a few times, and the path has a dot at each of these times. ``shown`` contains the
-    indices of these times.
+    ``shown`` contains the indices of the times at which the bars are drawn. The path has one dot for each
+    index in ``shown``.
     """
     for number, k in enumerate(shown):
         x, y = trail[:, k]
@@ -206,9 +206,9 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the transform that maps a horizontal line to a projected bar at one time.
 
     ``bar`` contains the two ends of the projected bar at all times. ``k`` is the index of the time, and
-    ``turn`` is the angle of the projected bar in degrees. The horizontal line begins at the origin. Its
-    length is the largest length of the projected bar. If ``unit`` is empty, the result is an SVG transform.
-    If ``unit`` is ``px``, the result is a CSS transform.
+    ``turn`` is the angle of the projected bar in degrees. The horizontal line begins at the origin and is as
+    long as the largest length of the projected bar. If ``unit`` is empty, the result is an SVG transform. If
+    ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

@@ -23,8 +23,8 @@ from codegen.scene.figure import Orders, Run
 def draw(figure: Orders, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Both axes are logarithmic. Each order p in ``figure.orders`` has a dashed line of slope p. This line is
-    near the curve with the observed order closest to p.
+    Both axes are logarithmic. Each order p in ``figure.orders`` has a dashed line of slope p. The dashed line
+    is near the curve whose observed order is closest to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}

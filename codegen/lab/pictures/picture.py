@@ -29,6 +29,6 @@ class Drawn:
 
     @property
     def wide(self) -> bool:
-        """True if the picture is wider than the default. Such a picture fills the width of the page."""
+        """True if the picture is wider than the default. A wide picture fills the width of the page."""
         size = re.search(r'viewBox="0 0 ([\d.]+) ', self.svg)
         return size is not None and float(size[1]) > POINTS * SIZE[0] + 1.0

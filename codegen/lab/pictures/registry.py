@@ -1,6 +1,6 @@
 """Maps each kind of figure to its drawing function, and lists the figures of all scenes.
 
-A kind of figure is a subclass of ``Figure`` in :mod:`codegen.scene.figure`, such as ``PlaneCurves``.
+A kind of figure is a subclass of ``Figure`` (for example ``PlaneCurves``) in :mod:`codegen.scene.figure`.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
 
 
 def find(problem: Problem, name: str) -> Figure:
-    """Return the figure ``name`` of a scene. Raise UnknownName if the scene has no figure with this name."""
+    """Return the figure ``name`` of a scene. Raise UnknownName if the scene has no such figure."""
     for figure in problem.figures:
         if figure.name == name:
             return figure
@@ -101,7 +101,7 @@ def every_figure() -> Iterator[tuple[str, Figure]]:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return the list of all figures, which ``orderconds list figures`` prints.
+    """Return the list that ``orderconds list figures`` prints: one entry for each figure of each scene.
 
     In each entry, ``name`` contains the name of the scene and the name of the figure. ``about`` contains the
     title of the figure. If the figure reproduces a published figure, ``about`` also names the publication.

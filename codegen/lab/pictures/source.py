@@ -87,7 +87,7 @@ class Source:
         """Return the states of a run at its output times.
 
         A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
-        return the final state for each of these values.
+        return the final state for each value of the sweep.
         """
         if run not in self._paths:
             integrator = self.integrator(run)
@@ -104,7 +104,7 @@ class Source:
         """Return the final state of a run.
 
         A sweep repeats a run with several values of a parameter or of the step size. For a run with a sweep,
-        ``value`` is one of these values. Raises :class:`codegen.integrator.StepFailed` if a step fails.
+        ``value`` is one value of the sweep. Raises :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -161,11 +161,11 @@ class Source:
 def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") -> ArrayFunction:
     """Return a function that evaluates quantities of a scene at many states.
 
-    A quantity is a formula or the name of an invariant. The returned function has the arguments ``states``
-    and ``times``, which are arrays. Each row of ``states`` contains the values of one coordinate. Each row of
-    the result contains the values of one quantity. ``swept`` is the name of a parameter that differs from
-    state to state. Its values are the last row of ``states``. :class:`codegen.errors.SceneError` is raised
-    for a formula with an unknown symbol.
+    A quantity is a formula or the name of an invariant. The arguments of the returned function are two
+    arrays, ``states`` and ``times``. Each row of ``states`` contains the values of one coordinate. Each row
+    of the result contains the values of one quantity. ``swept`` is the name of a parameter that differs from
+    state to state. The values of this parameter are the last row of ``states``.
+    :class:`codegen.errors.SceneError` is raised for a formula with an unknown symbol.
     """
     import sympy
 
@@ -190,7 +190,7 @@ def formulas(problem: Problem, quantities: Sequence[Quantity], swept: str = "") 
 def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
     """Return the formula of an invariant (a conserved quantity) of a scene.
 
-    Raises SceneError if the scene has no invariant with this name.
+    Raises SceneError if the scene has no invariant ``name``.
     """
     if name not in problem.invariants:
         raise SceneError(
@@ -206,7 +206,7 @@ def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
 def _key(run: Run) -> tuple[object, ...]:
     """Return a dictionary key for the emitted module of a run.
 
-    Runs with equal keys use the same module.
+    Runs with equal keys share one module.
     """
     return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
 

@@ -68,7 +68,7 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
 def projection(azimuth: float, elevation: float) -> numpy.ndarray:
     """Return the rotation matrix that maps a point in space to its coordinates in the picture.
 
-    The first of these coordinates increases to the right, the second upwards, and the third towards the
+    In the picture, the first coordinate increases to the right, the second upwards, and the third towards the
     viewer. ``azimuth`` and ``elevation`` give the direction from the origin to the viewer, in degrees.
 
     >>> projection(0.0, 0.0).round(12).tolist()
@@ -124,7 +124,7 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # Each label is drawn on a box in the colour of the page, so that no line crosses the label.
+        # Each label has a box in the colour of the page. The box hides the lines behind the label.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

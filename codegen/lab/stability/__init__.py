@@ -2,7 +2,7 @@
 
 There are five kinds of tests:
 
-- single steps with extreme input, such as a very long step (:mod:`.extreme_steps`),
+- single steps with extreme input, for example a very large step size (:mod:`.extreme_steps`),
 - the largest step size that gives a usable result (:mod:`.largest_step`),
 - the order on variants of the scene with a fast motion (:mod:`.order_reduction`),
 - runs of many steps (:mod:`.endurance`),

@@ -28,11 +28,11 @@ TRIAL = 1000
 class Endurance:
     """The result of a long run: a run forward, or a run forward followed by a run back to the initial time.
 
-    - ``steps``: the number of steps in each direction. If a step failed, ``steps`` is the number of steps
-      completed before in the same direction.
-    - ``defect``: the largest absolute residual of the equations of the manifold after a run forward. It is
-      infinite if the final state is not finite. It is None if the final state is finite and the manifold is a
-      vector space.
+    - ``steps``: the number of steps in each direction. If a step failed, ``steps`` is the number of completed
+      steps in the direction of the failed step.
+    - ``defect``: the largest absolute residual of the equations of the manifold after a run forward. If the
+      final state is not finite, ``defect`` is infinite. If the final state is finite and the manifold is a
+      vector space, ``defect`` is None.
     - ``returned``: the distance of the final state from the initial state after a run forward and back.
     - ``failure``: the error message of the integrator if a step failed.
 

@@ -1,18 +1,18 @@
 """Single steps with extreme input: the result of emitted code is compared with an exact result.
 
-The interpreter (:mod:`codegen.ir.interpret`) makes the same step with at least 60 digits. Its result is the
-exact result. Several probes repeat the step. In a probe, the interpreter adds random rounding errors of a
-double to the input and to the result of every operation. The differences between the probes and the exact
-result show how much rounding can change the result.
+The interpreter (:mod:`codegen.ir.interpret`) makes the step of the emitted code with at least 60 digits. The
+result of the interpreter is called the exact result. Several probes repeat the step. In a probe, the
+interpreter adds random rounding errors of a double to the input and to the result of every operation. The
+differences between the probes and the exact result show how much rounding can change the result.
 
 There are three verdicts:
 
 - *wrong*: the result is not finite, or rounding cannot cause its error.
 - *accurate*: rounding can cause the error, and at least :data:`LEAST` digits are correct.
 - *undetermined*: rounding can cause the error, and fewer digits are correct. For example, a rotation by 1e20
-  radians has no correct digit. The emitted code should return a status for this step.
+  radians has no correct digit. For a step with this verdict, the emitted code should return a status.
 
-Correct digits are counted separately for each component of the state, such as a group element or a momentum.
+Correct digits are counted separately for each component (for example a group element) of the state.
 
 The interpreter solves the equations of an implicit method by fixed-point iteration. If the iteration does not
 converge, it uses Newton's method. The equations can have several solutions. Therefore Newton's method starts
@@ -100,7 +100,7 @@ class Answer:
     """The verdict on the result of a step with extreme input.
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
-    ``error`` is the largest relative error of a component of the state, such as a momentum. Rounding
+    ``error`` is the largest relative error of a component (for example a momentum) of the state. Rounding
     errors do not change the first ``determined`` decimal digits of the result. If the result could not be
     compared with an exact result, both numbers are None.
     """
@@ -311,7 +311,8 @@ class Rounding(BallDomain):
     def computed(self, name: str, value: Value) -> Value:
         """Return ``value``, the result of an operation, with one rounding error in each component.
 
-        ``name`` is the variable to which the step assigns the result. It determines the signs of the errors.
+        ``name`` is the variable to which the step assigns the result. The name determines the signs of the
+        errors.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:

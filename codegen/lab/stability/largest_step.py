@@ -30,7 +30,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The largest usable step size ``h``, and the number ``steps`` of these steps in the time span.
+    """The largest usable step size ``h``, and the number ``steps`` of steps of size ``h`` in the time span.
 
     ``reason`` explains why longer steps are not usable. If no usable step size is found, ``h`` and ``steps``
     are None, and ``reason`` explains why.
@@ -48,8 +48,8 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    The number of steps begins at 1. It is doubled until the run is usable. Bisection then finds a number n
-    such that the run with n steps is usable and the run with n - 1 steps is not.
+    The first run has one step. The number of steps is doubled until the run is usable. Bisection then finds a
+    number n such that the run with n steps is usable and the run with n - 1 steps is not.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1

@@ -3,8 +3,8 @@
 A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
 span. In each further run, the step size h is half that of the run before. A run is in the stiff regime if the
 product of h and the rate is above one. The slope between two successive runs is the change of log(error)
-divided by the change of log(h). The median of the slopes in the stiff regime is the observed order. It is
-compared with the order computed from the order conditions.
+divided by the change of log(h). The median of the slopes in the stiff regime is the observed order. The
+observed order is compared with the order computed from the order conditions.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ class OrderReduction:
     - ``rate``: the rate of the fast motion, per unit of time.
     - ``stated``: the order computed from the order conditions.
     - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
-    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if too few of these runs
-      are accurate enough.
+    - ``observed``: the order observed with steps longer than 1/``rate``. If too few runs with these steps are
+      accurate enough, ``observed`` is None.
     - ``verdict``: a sentence about the observed order or the usable step sizes.
     """
 

@@ -1,4 +1,4 @@
-"""The stability study of one method on a scene. It consists of all tests of :mod:`codegen.lab.stability`."""
+"""The stability study of one method on a scene: all tests of :mod:`codegen.lab.stability`."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ class Findings:
 class Stability:
     """The results of all stability tests of one method on one scene.
 
-    ``region`` contains the stability function and the stability intervals of the tableau. It is None if the
-    stability function is not known.
+    ``region`` contains the stability function and the stability intervals of the tableau. If the stability
+    function is not known, ``region`` is None.
     """
 
     scene: str
