@@ -1,6 +1,6 @@
 """The base class of measurements.
 
-A measurement computes a result. It also writes the result as JSON and as a section of the report.
+A measurement computes a result, and writes the result as JSON and as a section of the report.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ class Measurement(ABC, Generic[R]):
 
     - ``name``: the name for ``orderconds report --only``, for the JSON, and for links in the page;
     - ``title``: the heading of the section;
-    - ``about``: a description of one line, which ``orderconds list measurements`` prints;
+    - ``about``: one line of text for ``orderconds list measurements``;
     - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of another measurement. If the user selects that measurement, the measurement of
-      this class is made too.
+    - ``part_of``: the name of another measurement. If the user selects the other measurement, the
+      measurement of this class is made too.
     """
 
     name: ClassVar[str]
@@ -57,16 +57,16 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def as_json(self, result: R) -> object:
-        """Return the result as plain data, which can be written as JSON."""
+        """Return the result as plain data for JSON."""
 
     @abstractmethod
     def section(self, result: R, subject: Subject) -> Section | None:
         """Return the content of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return one sentence that summarises the result. The section begins with this sentence.
+        """Return the first sentence of the section, a summary of the result.
 
-        If a subclass does not define this method, the result is ''.
+        If a subclass does not define this method, there is no such sentence: the method returns ''.
         """
         return ""
 

@@ -1,8 +1,8 @@
-"""A cache on disk for the results of measurements. A measurement with the same inputs is not repeated.
+"""A cache on disk for the results of measurements. A stored result is not measured again.
 
-Each result is stored in its own file. The key of a result contains the inputs of the measurement, such as the
-emitted files and the settings. The cache adds the kind of processor to the key, because CPU times depend on
-it. The file name is a digest of the key.
+Each result is stored in its own file. The key of a result contains the inputs of the measurement, for example
+the emitted files and the settings. CPU times depend on the kind of processor. Therefore the cache adds the
+kind of processor to the key. The file name is a digest of the key.
 
 The file contains the result and a digest of the result. If the digest does not match the result, or if the
 result has the wrong type, the measurement is made again. The cache does not use a folder of another user.
@@ -25,7 +25,7 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""The version of the file format. It is part of every key. Therefore files of old versions are not read."""
+"""The version of the file format. Files of old versions are not read, because every key contains FORMAT."""
 
 FOLDER = ".measured"
 """The name of the cache folder of a report.
@@ -51,9 +51,9 @@ class MeasurementCache:
         """Return the stored result with the key ``key``.
 
         If no result is stored, call ``measure`` and store its result. Exceptions of ``measure`` are not
-        caught. ``kind`` is the type of the result, which can consist of dataclasses, tuples, numbers and
-        strings. The file name is computed from the ``repr`` of each value in ``key``. This ``repr`` must be
-        the same in every process. If the folder cannot be used, the result is not stored.
+        caught. ``kind`` is the type of the result. A result can consist of dataclasses, tuples, numbers
+        and strings. The file name is computed from the ``repr`` of each value in ``key``. The ``repr`` of a
+        value must not differ between processes. If the folder cannot be used, the result is not stored.
         """
         result = self.find(key, kind)
         if result is None:
@@ -111,7 +111,7 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Set the access mode of ``folder`` to 0700, so that only its owner can use it. Return True on success.
+    """Set the access mode of ``folder`` to 0700 (access for the owner only). Return True on success.
 
     If ``folder`` is a symbolic link, or if another user owns ``folder``, nothing is changed and the result is
     False.

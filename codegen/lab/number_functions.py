@@ -1,4 +1,4 @@
-"""The functions that formulas may call, such as ``sin``, for floats, mpmath numbers, Arb balls and arrays."""
+"""The functions (for example ``sin``) in formulas, for floats, mpmath numbers, Arb balls and arrays."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ result is a function that evaluates the table.
 def of_scalars(source: object) -> Functions:
     """Return the functions that formulas may call, for one type of numbers.
 
-    ``source`` is a module or class with the functions of these numbers, such as ``sin`` and ``sqrt``. For
+    ``source`` is a module or class with functions (for example ``sin`` and ``sqrt``) of these numbers. For
     floats, ``source`` is the module ``math``. The numbers must have the operators ``<``, ``<=`` and ``>``.
     """
     return {
@@ -89,7 +89,7 @@ def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Sca
 
     On an interval with base point b, the polynomial is c_0 + c_1 (x - b) + c_2 (x - b)^2 + ...
 
-    - The first list contains the knots, which separate the intervals.
+    - The first list contains the knots, the points between the intervals.
     - The second list contains the base points of the intervals.
     - The third list contains c_0 for each interval, the next list c_1, and so on.
     """

@@ -1,7 +1,7 @@
 """Type aliases for numbers, vectors and functions that evaluate formulas.
 
 The variables of a formula can be floats, mpmath numbers, Arb balls, power series and expressions. These
-types have no common base class, so the aliases use ``Any``.
+types have no common base class. Therefore the aliases allow every type.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 Scalar: TypeAlias = Any
-"""A number of one of these types: float, mpmath number, ball, power series, expression."""
+"""A float, mpmath number, Arb ball, power series or expression."""
 
 Vector: TypeAlias = tuple[Scalar, ...]
 """The coordinates of a state, or of an element of a Lie algebra."""

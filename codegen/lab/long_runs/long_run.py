@@ -1,8 +1,8 @@
 """Measures conserved quantities, symplecticity, reversibility and rounding errors in runs of many steps.
 
-The scene declares invariants, such as the energy. The expressions that are zero on the manifold of the scene
-are also conserved. All conserved quantities are evaluated after every step. The deviation of a quantity is
-divided by the size of the quantity.
+The scene declares invariants, for example the energy. The expressions that are zero on the manifold of the
+scene are also conserved. All conserved quantities are evaluated after every step. The deviation of a quantity
+is divided by the size of the quantity.
 
 To test reversibility, the method runs to the end with the step size h, and back with the step size -h. A
 symmetric method then returns to the initial state, apart from rounding errors.
@@ -51,8 +51,8 @@ class Kept:
 
     A deviation is the difference from the initial value, divided by the size of the quantity. ``times`` are
     the times of the samples, measured from the start of the run. For each sample, ``deviations`` contains the
-    mean deviation of all steps since the previous sample. ``peaks`` contains the largest absolute deviation
-    of these steps.
+    mean deviation of all steps since the previous sample, and ``peaks`` contains the largest absolute
+    deviation of all steps since the previous sample.
     """
 
     name: str
@@ -90,7 +90,7 @@ class LongRun:
     unmeasured: str = ""
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. Numbers that are not finite become None.
+        """Return plain data for JSON. Numbers that are not finite become None.
 
         The result does not contain the deviations at the samples.
         """
@@ -163,8 +163,8 @@ def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple
     """Test the reversibility of a method. Return two pairs (n, distance).
 
     The method makes n steps forward and n steps back. The number ``distance`` is the distance between the
-    final and the initial state. In the second pair, n is the number of all steps of ``trajectory``. In the
-    first pair, n is about a hundredth of this number.
+    final and the initial state. Let N be the number of steps of ``trajectory``. In the first pair, n is about
+    N/100. In the second pair, n is N.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
@@ -183,11 +183,12 @@ def _kept(
     """Return the deviations and the drift of each conserved quantity.
 
     ``conserved`` contains the names of the quantities that the method conserves exactly. ``changes`` maps
-    the name of a quantity to its largest change in one step, computed with 60 digits. Small deviations of a
-    quantity are attributed to rounding errors only if its relative change is at most EPSILON/10.
+    the name of a quantity to the largest change of the quantity in one step, computed with 60 digits. If this
+    change, divided by the size of the quantity, is at most EPSILON/10, small deviations of the quantity are
+    attributed to rounding errors. Otherwise no deviation of the quantity is attributed to rounding errors.
 
-    ``early(n)`` repeats the first n steps with more samples. This function is called if a deviation
-    saturates before there are enough samples for a fit (:data:`FEWEST`).
+    ``early(n)`` repeats the first n steps with more samples. If a deviation saturates before there are enough
+    samples for a fit (:data:`FEWEST`), ``early`` is called.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -218,8 +219,8 @@ def _before_saturation(
     """Return the drift of a quantity, fitted to the samples before the deviation saturates.
 
     ``whole`` is the result of :func:`fit` for the complete run. If there are enough samples before the
-    saturation, the function returns ``whole``. Otherwise the drift is computed from ``early(n)``, which
-    repeats the first n steps with more samples.
+    saturation, the function returns ``whole``. Otherwise ``early(n)`` repeats the first n steps
+    with more samples, and the drift is computed from these samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

@@ -1,10 +1,10 @@
 """Tests three properties of a method: symplecticity, symmetry, and no drift of a conserved quantity.
 
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
-each of these three properties. A method is symplectic if the symplectic defect of its steps is zero
+each of the three properties. A method is symplectic if the symplectic defect of its steps is zero
 (:mod:`codegen.lab.long_runs.symplecticity`). A method is symmetric if a step of size h, followed by a step of
-size -h, returns to the start. These two properties are tested with more digits than doubles have. The drift
-is measured in a long run.
+size -h, returns to the start. Symplecticity and symmetry are tested with more digits than doubles have. The
+drift is measured in a long run.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Properties:
     reversal: float | None
 
     def as_json(self) -> dict[str, object]:
-        """Return the properties as a dictionary of plain data, which can be written as JSON."""
+        """Return the properties as a dictionary of plain data for JSON."""
         return {
             "symplectic": self.symplectic,
             "symmetric": self.symmetric,

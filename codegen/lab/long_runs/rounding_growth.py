@@ -11,7 +11,7 @@ step. Compensated summation does not remove such an error.
 
 Several runs start from different states of one trajectory. For several numbers n, the root mean square of
 the deviations of all runs after n steps is computed. A power of n is fitted to these root mean squares. The
-confidence interval of the exponent comes from the jackknife method, which repeats the fit without the first
+confidence interval of the exponent comes from the jackknife method: the fit is repeated without the first
 run, without the second run, and so on.
 """
 
@@ -62,13 +62,14 @@ The change is computed with 60 digits.
 CHAIN = 3
 """The number of consecutive steps in :func:`changes_of_a_step`.
 
-One step is not enough: from a special initial state, the change in one step may be zero by chance.
+One step is not enough: from a special initial state, the change of a quantity in one step may be zero by
+chance.
 """
 
 NEARLY = 1e-14
 """The bound that replaces :data:`EXACT` for a step from a state with rounding errors.
 
-This state is not exactly on the manifold. Therefore a larger bound is needed.
+A state with rounding errors is not exactly on the manifold. Therefore a larger bound is needed.
 """
 
 
@@ -110,7 +111,7 @@ class Growth:
         return " or ".join(held) or "neither law"
 
     def as_json(self) -> dict[str, object]:
-        """Return the growth as a dictionary of plain data, which can be written as JSON."""
+        """Return the growth as a dictionary of plain data for JSON."""
         return {
             "quantity": self.quantity,
             "compensated": self.compensated,
@@ -245,7 +246,7 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 
 
 class _Sizes:
-    """Computes the sizes of quantities. Deviations are divided by these sizes.
+    """Computes the sizes of quantities. The deviation of a quantity is divided by the size of the quantity.
 
     The size of a quantity is usually its absolute value. If the terms of the quantity nearly cancel, the size
     is the sum of the absolute values of the terms.

@@ -5,9 +5,9 @@ much the tangent map changes this form. The tangent map is approximated by centr
 are computed with 40 digits.
 
 Let q be an element of G, and let mu be its momentum. In right trivialisation, a tangent vector at (q, mu) is
-a pair (xi, nu). Here xi is an element of the Lie algebra, and nu is an element of the dual of the Lie
-algebra. The value of the symplectic form for two pairs (xi_1, nu_1) and (xi_2, nu_2) is
-(H. Marthinsen, *Lie group integrators*, eq. (2.26)):
+a pair (xi, nu) of an element xi of the Lie algebra and an element nu of the dual of the Lie algebra. The
+value of the symplectic form for two pairs (xi_1, nu_1) and (xi_2, nu_2) is (H. Marthinsen, *Lie group
+integrators*, eq. (2.26)):
 
     <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]>
 
@@ -121,7 +121,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # _step() stores a solution with 40 digits in ``solution``. All later calls of step() start from it.
+        # Later calls of step() start from ``solution``, where _step() stores a solution with 40 digits.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -136,7 +136,7 @@ def record(
 
 
 def scale(start: float, magnitude: float) -> float:
-    """Return the size of a conserved quantity. Deviations are divided by this size.
+    """Return the size of a conserved quantity. The deviation of the quantity is divided by the size.
 
     ``start`` is the initial value of the quantity, and ``magnitude`` is the sum of the absolute values of its
     terms. The size is usually the absolute value of ``start``. If the terms cancel (:data:`CANCELLED`), the
@@ -200,8 +200,8 @@ def _append(
 ) -> None:
     """Append the samples of a chunk of steps to the record of a run.
 
-    The first row of ``rows`` is the last state of the previous chunk. The further rows are the states after
-    the steps of this chunk. Every ``stride``-th state of the chunk becomes a sample. The last state of the
+    The first row of ``rows`` is the last state of the previous chunk. The other rows are the states after
+    the steps of the chunk. Every ``stride``-th state of the chunk becomes a sample. The last state of the
     chunk is always a sample. ``first`` is the initial time of the run.
     """
     count = len(rows) - 1

@@ -35,8 +35,8 @@ class Advised:
 
     - ``method``: the name of the method or peer.
     - ``seconds``: the CPU time of a run that reaches the error.
-    - ``h``: the step size. It is None if the method controls its step size.
-    - ``tolerance``: the tolerance of the step-size control. It is None if all steps are equal.
+    - ``h``: the step size, or None if the method controls its step size.
+    - ``tolerance``: the tolerance of the step-size control, or None if all steps are equal.
     - ``steps``: the number of steps.
     - ``command``: the command that emits the integrator.
 
@@ -188,10 +188,10 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return the lines of a search that the time limit ended, completed with other methods.
 
-    ``known`` contains the properties of these other methods, and ``entries`` contains their runs. The search
-    may have missed a faster method. Therefore a faster method in ``known`` that satisfies the requirement is
-    entered instead. Its CPU time is interpolated between its runs. The lines of requirements on long times
-    are not changed, because only the search makes long runs.
+    ``known`` contains the properties of the other methods, and ``entries`` contains runs. The search may have
+    missed a faster method. Therefore a faster method in ``known`` that satisfies the requirement is entered
+    instead. The CPU time of this method is interpolated between its runs. The lines of requirements on long
+    times are not changed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -225,7 +225,7 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple with one :class:`Line`, which lists the fastest peer (other integrator) for each error.
+    """Return the fastest peer (other integrator) for each error, as a tuple with one :class:`Line`.
 
     If no peer was measured, the tuple is empty.
     """
@@ -264,8 +264,9 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 def cell(best: Advised | None) -> dict[str, str] | None:
     """Return the texts of a cell of the table, or None for an empty cell.
 
-    The text ``control`` contains the step size or the tolerance, and the number of steps. The other texts are
-    the name of the method, the CPU time, and the command that emits the integrator.
+    The text ``control`` contains the step size or the tolerance, and the number of steps. The texts
+    ``label``, ``time`` and ``command`` are the name of the method, the CPU time, and the command that emits
+    the integrator.
     """
     if best is None:
         return None

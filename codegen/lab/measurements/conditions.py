@@ -1,6 +1,7 @@
 """The section about order conditions.
 
-It shows the independent order conditions of each method family, and the conditions that each method violates.
+The section shows the independent order conditions of each method family, and the conditions that each method
+violates.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ A longer residual is shown as a decimal number.
 class FamilyConditions:
     """The independent order conditions of one family of methods, grouped by order.
 
-    ``by_order`` contains pairs (order, conditions of this order).
+    ``by_order`` contains pairs (p, conditions of order p).
     """
 
     family: str

@@ -1,7 +1,7 @@
 """The section about the emitted code of each method.
 
-It shows the arithmetic operations of a step, and the emitted files. It also lists the simplifications: the
-operations and function arguments that the emitted code does not need.
+The section shows the arithmetic operations of a step, and the emitted files. The section also lists the
+simplifications: the operations and function arguments that the emitted code does not need.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.lab.subject import CompiledMethod, Subject
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
     """Lists the operations, the simplifications and the emission command of each emitted module.
 
-    They are read from the manifest (the description) of the module.
+    All three are read from the manifest (the description) of the module.
     """
 
     name = "emitted"

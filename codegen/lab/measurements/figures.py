@@ -22,7 +22,7 @@ class Stored:
     """A drawn figure in the cache.
 
     ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` contains
-    numbers that the figure shows, such as the final point of each run.
+    numbers (for example, the final point of each run) that the figure shows.
     """
 
     svg: str
@@ -49,8 +49,8 @@ Results = tuple[Result, ...]
 class Figures(Measurement[Results]):
     """Draws the figures that the file of the scene declares.
 
-    The methods and step sizes of these figures are given in the file of the scene. Options of the command
-    ``report`` do not change them.
+    The file of the scene also gives the methods and step sizes of the figures. Options of the command
+    ``report`` do not change these methods and step sizes.
     """
 
     name = "figures"

@@ -62,9 +62,9 @@ class LongRuns(Measurement[Result]):
     def verdict(self, result: Result, subject: Subject) -> str:
         """Return a sentence about the growth of the deviation of one conserved quantity.
 
-        For each law of growth, such as ``bounded`` or ``drift``, the sentence lists the methods with this
-        law. The quantity is the energy. If the scene has no energy, it is the first invariant. If the scene
-        has no invariants, it is the residual of the manifold equations.
+        For each law of growth (for example ``bounded`` or ``drift``), the sentence lists the methods with
+        this law. The quantity is the energy. If the scene has no energy, the quantity is the first invariant.
+        If the scene has no invariants, the quantity is the residual of the manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -132,8 +132,9 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
     """Return points (t, d), where d is the largest deviation of the quantity ``name`` up to the time t.
 
-    To limit the number of points, a point is added only if d has grown by more than 2 %. If all deviations
-    are finite, a point at the final time is added too. The points end before a deviation that is not finite.
+    To limit the number of points, the next point is added when d has grown by more than 2 % since the last
+    point. If all deviations are finite, a point at the final time is added too. The points end before a
+    deviation that is not finite.
     """
     for kept in run.kept:
         if kept.name != name:

@@ -19,7 +19,7 @@ Result = MethodResults[OrderStudy]
 class Orders(Measurement[Result]):
     """Compares the observed order of the emitted code with the order computed from the order conditions.
 
-    The observed order is measured for every target, such as C or Python.
+    The observed order is measured for every target (programming language).
     """
 
     name = "orders"
@@ -86,8 +86,8 @@ class Orders(Measurement[Result]):
 def agreement(spread: float | None) -> str:
     """Return a text for ``spread`` (:class:`OrderStudy`).
 
-    ``spread`` is the largest difference between the final states of the targets, such as C and Python. If the
-    final states could not be compared, ``spread`` is None.
+    ``spread`` is the largest difference between the final states of the targets (programming languages). If
+    the final states could not be compared, ``spread`` is None.
     """
     if spread is None:
         return "no run"

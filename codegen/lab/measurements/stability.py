@@ -1,7 +1,7 @@
 """The report section about stability.
 
-The section contains the largest usable step and the results of steps with extreme input. It also contains
-the results for stiff variants of the scene, runs of many steps, and linear stability.
+The section contains the largest usable step and the results of steps with extreme input. The section also
+contains the results for stiff variants of the scene, for runs of many steps, and for linear stability.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class StabilityTests(Measurement[Result]):
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
-    """Return the variables of the template of this section."""
+    """Return the variables of the template for the section."""
     methods = result.measured
     stiff = [(s, v) for s in methods for v in s.findings.stiff]
     rows = [_row(s) for s in methods]
@@ -208,7 +208,7 @@ def _cases(stability: Stability) -> dict[str, object]:
 def endurance_text(run: Endurance) -> str:
     """Return a text with the number of steps of a long run and the distances that were measured.
 
-    If a step failed, return the status message of this step.
+    If a step failed, return the status message of the failed step.
     """
     if run.failure:
         return run.failure

@@ -27,8 +27,8 @@ ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
 """The values of ``certificate`` for an order that is not proved by order conditions.
 
-Such an order comes from the user or from the tableau file. It is also compared with the order measured with
-very short steps.
+Such an order comes from the user or from the tableau file. Even if the observed order agrees with such an
+order, the order is measured again with very short steps.
 """
 
 FEWEST = 4
@@ -42,7 +42,7 @@ Four runs give three slopes. The test whether the slopes have settled needs thre
 class Convergence:
     """The runs of one method on one scene, and the stated order.
 
-    - ``target``: the name of the target, such as ``c``, or ``interpreter``.
+    - ``target``: the name of the target (for example ``c``), or ``interpreter``.
     - ``stated``: the order to test.
     - ``refinement``: the runs, from long to short steps.
     - ``kinks``: for each kink, how many derivatives of the field are continuous there. A kink is a point of
@@ -77,8 +77,8 @@ class Convergence:
     def verdict(self) -> str:
         """The result of the comparison of the observed order with the stated order.
 
-        It is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is lower than the stated order, the
-        result is ``undecided``.
+        The result is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is lower than the stated order,
+        the result is ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -92,8 +92,8 @@ class Convergence:
         kinks, the bound is infinity.
         """
         # Let k derivatives of the field be continuous at a kink. In each run, one step crosses the kink. The
-        # local error of this step is proportional to h^(k+2). This local error is a part of the final error,
-        # so the order is at most k + 2.
+        # local error of this step is proportional to h^(k+2). The final error contains the local errors of
+        # all steps. Therefore the order is at most k + 2.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:

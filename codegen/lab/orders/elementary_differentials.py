@@ -3,8 +3,8 @@
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
 that maps y to x.y is called a frozen field. To differentiate a function g along a frozen field, y is replaced
 by y + eps x.y, where eps^2 = 0. The derivative is the coefficient of eps in the value of g. A derivative
-along k frozen fields uses k numbers eps_1, ..., eps_k. It is the coefficient of the product eps_1 ... eps_k
-in the value of g. The scene must be polynomial in its coordinates.
+along k frozen fields uses k numbers eps_1, ..., eps_k. The derivative is the coefficient of the product
+eps_1 ... eps_k in the value of g. The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 class RingDomain(Domain):
     """Arithmetic in an exact ring, for scenes that are polynomial in their coordinates.
 
-    The class :class:`codegen.ir.domain.Domain` requires a step size ``h``. Here ``h`` is 1. This value has no
-    effect, because elementary differentials do not depend on the step size.
+    The class :class:`codegen.ir.domain.Domain` requires a step size ``h``. Elementary differentials do not
+    depend on the step size. In this class ``h`` is 1.
     """
 
     def __init__(self, ring: Ring) -> None:
@@ -88,7 +88,7 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t.
 
-        F(t) is an element of the Lie algebra. It is a derivative of the field f at the initial point. For
+        F(t) is an element of the Lie algebra, and a derivative of the field f at the initial point. For
         each branch b of t, the field is differentiated once along the vector field that maps y to F(b).y.
         """
         if tree not in self._known:
@@ -100,8 +100,8 @@ class FrozenFields:
     def forest(self, forest: Forest) -> Vector:
         """Return the elementary differential of an ordered forest.
 
-        It is a derivative of the coordinates of y at the initial point. For each tree t of the forest, the
-        coordinates are differentiated once along the vector field that maps y to F(t).y.
+        The differential is a derivative of the coordinates of y at the initial point. For each tree t of the
+        forest, the coordinates are differentiated once along the vector field that maps y to F(t).y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)

@@ -1,8 +1,8 @@
 """The exact order of a method on a scene, computed from the Taylor series of the local error of a step.
 
 An order that is computed from the errors of runs is an estimate. If the field of a scene is polynomial or
-rational, the Taylor coefficients of the local error are exact numbers. The order is p if the coefficient of
-h^(p+1) is the first coefficient that is not zero. Here h is the step size.
+rational, the Taylor coefficients of the local error are exact numbers. Let h be the step size. The order
+is p if the coefficient of h^(p+1) is the first coefficient that is not zero.
 
 The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
 this ring are replaced by nearby rational numbers. The new initial point is in general not on the manifold.
@@ -74,7 +74,7 @@ class ExactLocalError:
         )
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON."""
+        """Return plain data for JSON."""
         return {
             "scene": self.scene,
             "method": self.method,

@@ -3,11 +3,11 @@
 In the first way, the interpreter executes the program of a step. The variables of the program are power
 series in h, not numbers. The coefficients of the series are exact. The result is the series of the state
 after one step. Picard iteration gives the series of the exact solution. The difference of the two series is
-the local error. Its lowest power is h^(p+1), where p is the order.
+the local error. If the order is p, the lowest power of h in the local error is h^(p+1).
 
 In the second way, the coefficient of h^(p+1) is a sum over the order conditions. Each summand is the residual
-of a condition times an elementary differential. The two results must be equal. This comparison
-tests the program of the step.
+of a condition times an elementary differential. If the program of the step is correct,
+the two results are equal.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def valuation(error: Vector) -> int:
 
 
 def leading_term(error: Vector) -> tuple[int, Vector]:
-    """Return the lowest power of h that occurs in a local error, and the coefficients of this power.
+    """Return the exponent of the lowest power of h in a local error, and the coefficients of this power.
 
     There is one coefficient for each component of the local error.
     """
@@ -147,7 +147,7 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over rooted trees t (a B-series).
 
-    The summand of t is F(t) r(t) / s(t). Here F(t) is the elementary differential of t, r(t) is the residual
+    The summand of t is F(t) r(t) / s(t), where F(t) is the elementary differential of t, r(t) is the residual
     of the order condition of t, and s(t) is the number of automorphisms of t (Hairer, Lubich and Wanner,
     *Geometric Numerical Integration*, III.1).
     """
@@ -174,7 +174,7 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over trees t with directed edges.
 
-    The summand of t is F(t) r(t) / s(t). Here F(t) is the elementary differential of t
+    The summand of t is F(t) r(t) / s(t), where F(t) is the elementary differential of t
     (:meth:`CanonicalFields.tree`), r(t) is the residual of the order condition of t, and s(t) is the number
     of automorphisms of t.
     """

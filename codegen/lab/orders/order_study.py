@@ -1,7 +1,7 @@
 """Studies the order of one method on a scene, with the code that is emitted for every target.
 
-A target is a programming language, such as C or Python. The study contains the convergence for every target,
-the differences between the results of the targets, and run times.
+A target is a programming language, for example C or Python. The study contains the convergence for every
+target, the differences between the results of the targets, and run times.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class OrderStudy:
     """The study of the order of one method.
 
     - ``order``: the order from the order conditions.
-    - ``convergences``: the convergence for each target, such as C or Python.
+    - ``convergences``: the convergence for each target (programming language).
     - ``times``: the CPU times of runs with the default target.
     - ``spread``: the largest difference in a coordinate of the final state (:func:`largest_difference`). The
       first target is compared with each other target and with the interpreter. If the final states could not
@@ -64,7 +64,7 @@ class OrderStudy:
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON."""
+        """Return plain data for JSON."""
         return {
             "method": self.method.label,
             "verdict": self.verdict,
@@ -78,8 +78,8 @@ class OrderStudy:
 class _Measured:
     """The part of an :class:`OrderStudy` that is stored in the cache.
 
-    ``refinements`` contains the runs for each target. ``times`` and ``spread`` have the
-    same meaning as in :class:`OrderStudy`.
+    ``refinements`` contains the runs for each target. ``times`` and ``spread`` are
+    explained in :class:`OrderStudy`.
     """
 
     refinements: dict[str, Refinement]
@@ -126,8 +126,9 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Return the largest difference of a coordinate between final states of the runners.
 
     The final state of the first runner is compared with the final state of each other runner. All runners
-    make n steps. Here n is the first entry of ``steps`` that is at least :data:`COMPARED` and with which all
-    runs succeed. If there is no such entry, the result is None.
+    make the same number n of steps. The number n is the first entry of ``steps`` that satisfies two
+    conditions: n is at least :data:`COMPARED`, and all runs with n steps succeed. If there is no such entry,
+    the result is None.
     """
     for n in steps:
         if n < COMPARED:

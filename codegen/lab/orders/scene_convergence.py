@@ -68,7 +68,7 @@ class ConvergenceTest:
         return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
 
     def reference(self) -> Reference:
-        """Return the reference solution of the scene. The final states of all runs are compared with it."""
+        """Return the reference solution of the scene. All final states are compared with this solution."""
         return cached_reference(self.scene)
 
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:

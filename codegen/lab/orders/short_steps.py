@@ -28,8 +28,8 @@ DIGITS = 100
 SMALLEST = 70
 """The shortest step size h satisfies (h/T)^(p+2) = 10^-SMALLEST.
 
-Here p is the expected order, and T is the length of the time span. Numbers of the size (h/T)^(p+2) are then
-much larger than the rounding errors of arithmetic with 100 digits.
+The number p is the expected order, and T is the length of the time span. Numbers of the size (h/T)^(p+2) are
+then much larger than the rounding errors of arithmetic with 100 digits.
 """
 
 STEPS, RATIO = 3, 8
@@ -47,7 +47,7 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     The step sizes are computed from the expected order ``stated``. The result is None in three cases:
 
     - A step cannot be computed.
-    - One step and two half steps give the same state.
+    - For some step size h, one step of size h and two steps of size h/2 give the same state.
     - Different pairs of step sizes give orders that differ by more than :data:`AGREEMENT`.
     """
     problem = problem_for(compiled.scene, compiled.method)

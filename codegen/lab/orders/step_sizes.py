@@ -25,7 +25,7 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used only if its error is larger than two bounds.
+"""A run is used for slopes only if the error of the run is larger than two bounds.
 
 The first bound is CLEAR times the estimated rounding error of the run. The second bound is CLEAR times the
 uncertainty of the reference solution. Rounding then changes the error of the run by less than 1 %, and so
@@ -105,7 +105,7 @@ class Refinement:
 
     @property
     def observed(self) -> float | None:
-        """The observed order, which is the last of :attr:`slopes`. It is None if there is no slope."""
+        """The observed order: the last of :attr:`slopes`, or None if there is no slope."""
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
@@ -168,8 +168,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     when the error of a run is too small to be measured.
 
     The function adds runs if the slopes have not settled, the last run is excluded and other runs are usable.
-    For each usable run with n steps, it adds runs with 6/5 n and 7/5 n steps. It also adds runs with fewer
-    than N steps (:data:`LONGER`).
+    For each usable run with n steps, the function adds runs with 6/5 n and 7/5 n steps. The function also
+    adds runs with fewer than N steps (:data:`LONGER`).
     """
     runs: list[Run] = []
     steps = FIRST

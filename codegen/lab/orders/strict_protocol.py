@@ -27,7 +27,7 @@ Alter = Callable[[Optimised], Optimised]
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
     """Return the order that the strict protocol tests.
 
-    It is the first of these orders that exists:
+    The result is the first order in this list that exists:
 
     - the order ``stated``,
     - the order that the tableau file claims for the family of the method,

@@ -1,4 +1,4 @@
-"""The scenes (test problems) of the strict protocol, which tests the order of a method.
+"""The scenes (test problems) of the strict protocol. The protocol tests the order of a method.
 
 The scenes have no symmetry that could hide an error in a method.
 

@@ -110,7 +110,7 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
     """Write a small text near the point ``at``.
 
     ``shift`` is the offset of the text in units of 1/72 inch. ``side`` is the horizontal alignment,
-    such as ``left``.
+    for example ``left``.
     """
     axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 

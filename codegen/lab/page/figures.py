@@ -1,6 +1,6 @@
 """The figures of the report.
 
-They show error against step size, error against CPU time, deviations over time, and stability regions.
+The figures show error against step size, error against CPU time, deviations over time, and stability regions.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ class _Drawing:
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size.
 
-    The attribute ``order`` of a curve is the slope of a dashed reference line. If several curves have the
-    same ``order``, only one line is drawn for them.
+    The attribute ``order`` of a curve is the slope of a dashed reference line. Curves with the same ``order``
+    share one reference line.
     """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
@@ -174,8 +174,8 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
     stability region contains the points z of the complex plane with |R(z)| <= 1.
-    Markers are drawn on the boundary. If two methods have the same boundary, their markers are at different
-    points.
+    Markers are drawn on the boundary. If two methods have the same boundary, the markers of the two
+    methods are at different points.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -257,9 +257,9 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Choose at most ``count`` positions at about equal distances, and return their indices.
 
-    ``positions`` is an increasing sequence. Its range is divided into ``count`` equal intervals. In each
-    interval, ``shift`` (from 0 to 1) selects a point: 0 is the beginning of the interval, and 1 is the end.
-    The position nearest to this point is chosen.
+    ``positions`` is an increasing sequence. The interval from the first to the last position is divided into
+    ``count`` equal intervals. In each of these intervals, ``shift`` (from 0 to 1) selects a point: 0 is the
+    beginning of the interval, and 1 is the end. The position nearest to this point is chosen.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -273,7 +273,7 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points at about equal distances on a contour, which consists of the polylines ``segments``.
+    """Return points at about equal distances on the contour with the polylines ``segments``.
 
     ``shift`` (from 0 to 1) moves the points along the contour by a fraction of their distance.
     """

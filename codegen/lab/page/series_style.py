@@ -65,8 +65,8 @@ class Style:
 def numbered(place: int) -> Style:
     """Return the style of the curve with the number ``place``. The curves of a figure are numbered from 0.
 
-    The colours repeat after :data:`COLOURS` curves. The markers and the dash patterns repeat in the same way
-    after len(MARKERS) curves and len(DASHES) curves.
+    The colours repeat after :data:`COLOURS` curves. The markers repeat after len(MARKERS) curves, and
+    the dash patterns repeat after len(DASHES) curves.
     """
     colour = f"var(--series-{place % COLOURS + 1})"
     return Style(colour, MARKERS[place % len(MARKERS)], DASHES[place % len(DASHES)])
@@ -96,8 +96,8 @@ class Styles:
     def of(self, label: str) -> Style:
         """Return the style of the method or peer (other integrator) that ``label`` names.
 
-        The label may begin with ``adaptive``. It may end with a remark in brackets: a target such as ``C``,
-        or a form of the equations such as ``body momentum``.
+        The label may begin with ``adaptive``, and may end with a remark in brackets. The remark is a target,
+        for example ``C``, or a form of the equations, for example ``body momentum``.
         """
         name = method_name(label)
         if name in PEERS:

@@ -1,9 +1,9 @@
 """Converts Matplotlib figures to SVG elements, with the colours and fonts of the page.
 
-Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables, which
-have different values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers
-in the SVG depend only on the drawn shapes and the name of the figure. Therefore a figure that is drawn again
-gives the same SVG. Figures with different names have different identifiers.
+Matplotlib draws with placeholder colours. In the SVG, the placeholders are replaced by CSS variables. The
+variables have different values in light and in dark mode. Text is written as SVG text, not as outlines. The
+identifiers in the SVG depend only on the drawn shapes and the name of the figure. Therefore, if a figure is
+drawn again, the SVG does not change. Figures with different names have different identifiers.
 
 The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
 attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
@@ -38,7 +38,7 @@ SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9"
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
 """SERIES_LIGHT lists the colours of the curves in light mode, and SERIES_DARK those in dark mode.
 
-Colour-blind readers can distinguish any two colours of the same list.
+Colour-blind readers can distinguish any two colours of one list.
 """
 
 LIGHT = {
@@ -95,7 +95,7 @@ class Text:
 def svg_element(figure: Figure, text: Text) -> Markup:
     """Return the figure as an SVG element.
 
-    The element has no fixed size and contains no date. Its colours are the CSS variables of the page.
+    The element has no fixed size and contains no date. All colours are CSS variables of the page.
     """
     import matplotlib
 
@@ -132,7 +132,8 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 def _with_titles(body: str, values: Sequence[str]) -> str:
     """Add the titles ``values`` to the markers of a curve. A browser displays a title as a tooltip.
 
-    ``body`` begins with the markers of the curve. Later markers, such as those of the legend, get no title.
+    ``body`` begins with the markers of the curve. Later markers, for example the markers of the
+    legend, get no title.
     """
     titles = iter(values)
 
