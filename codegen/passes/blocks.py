@@ -43,7 +43,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # If a start value is an unknown of an earlier block, ``names`` contains the variable that replaces it.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # The nodes are the indices of the assignments. Integers have the same order in every run.
+    # The nodes are the indices of the assignments, because integers are ordered alike in every run.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # The graph must also contain the assignments without edges.
@@ -85,8 +85,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return a map from each unknown to a variable that has the same value at the solution.
 
-    This variable is the image of the unknown. If the image is another unknown, the search continues with the
-    image of the other unknown. If the search reaches an unknown twice, the start value is used.
+    The search begins with the image of the unknown. If this image is another unknown, the search continues
+    with the image of the other unknown. If the search reaches an unknown twice, the start value is used.
     """
     result = {}
     for unknown in image:

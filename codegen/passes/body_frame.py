@@ -7,14 +7,15 @@ The pass is exact. Let q be the position at the start of the step. Every value i
 - a momentum mu becomes Ad*_q mu,
 - a position Q = E q is written as q E~.
 
-The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass does not change them.
+The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass replaces only their
+arguments.
 
-One operation is replaced: the evaluation of the derivatives of the Hamiltonian. This operation computes the
-velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage. In
-the body frame at the position Q, the momentum is P = Ad*_E~ M. The module :mod:`codegen.scene.body_frame`
-defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the
-transformed force is Ad*_{E~^-1} N(Q, P). The new equations read only the coordinates of Q on which W and N
-depend.
+The pass replaces one operation: the evaluation of the derivatives of the Hamiltonian. The evaluation gives
+the velocity and the force of a stage at a position Q = q E~. Let M be the transformed momentum of the stage.
+In the body frame at the position Q, the momentum is P = Ad*_E~ M. The module
+:mod:`codegen.scene.body_frame` defines the velocity W(Q, P) and the force N(Q, P). The transformed velocity
+is Ad_E~ W(Q, P), and the transformed force is Ad*_{E~^-1} N(Q, P). The new equations read only the
+coordinates of Q on which W and N depend.
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 
@@ -66,7 +67,7 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The state must consist of a group element q, which defines the body frame, and a momentum mu.
+    # The state must consist of a group element q and a momentum mu. The body frame is defined by q.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
@@ -109,8 +110,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # A program with an embedded solution returns two positions with different body frames. Such a program
-        # is not rewritten.
+        # A program with an embedded solution is not rewritten, because it returns two positions with
+        # different body frames.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
@@ -147,9 +148,9 @@ class _Framing:
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation stays the same. Only its arguments are replaced.
+            # Only the arguments of an equivariant operation are replaced.
             self._emit(replace(assign, args=self._now(args)))
-        # A stage time is the same in every frame.
+        # A stage time does not depend on the frame.
         elif isinstance(operation, Advance):
             self._emit(assign)
         else:

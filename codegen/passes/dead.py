@@ -1,7 +1,7 @@
 """Remove dead code: values on which no output of the program depends.
 
 The pass is exact. A value is live if an output depends on it. An unknown that is not live is removed together
-with its equation. If no unknown of a block is live, the live assignments of the block are moved out of it.
+with its equation. If no unknown of a block is live, the block is replaced by its live assignments.
 """
 
 from __future__ import annotations

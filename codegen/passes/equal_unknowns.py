@@ -1,8 +1,8 @@
 """Unknowns with the same image (right-hand side of the fixed-point equation) are merged into one unknown.
 
 The pass is exact, because unknowns with the same image are equal at a solution. If two stages have the same
-coefficients, :mod:`codegen.passes.value_numbering` gives both unknowns the same image. This pass merges the
-two stages.
+coefficients, :mod:`codegen.passes.value_numbering` gives the unknowns of both stages the same image. Then
+this pass merges the two unknowns.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program after unknowns of a block with the same image have been merged."""
+    """Return the program in which unknowns of a block are merged if they have the same image."""
     same: dict[Var, Var] = {}
 
     def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
@@ -28,8 +28,8 @@ def run(program: Program) -> Program:
             # statement may read a removed unknown.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # Removed unknowns are replaced in the body. The body may then contain equal assignments, which
-            # value numbering merges.
+            # Removed unknowns are replaced in the body. The body may then contain equal assignments.
+            # Value numbering merges equal assignments.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner

@@ -57,7 +57,7 @@ NOT_A_NUMBER = "differs by nan"
 """End of the description of a difference that is not a number (NaN)."""
 
 APART = 16
-"""If the reference has results for two successive steps, their sizes differ at least by this factor."""
+"""Smallest quotient of the sizes of two successive steps for which the reference has results."""
 
 LARGEST = 2.0**512
 """A step is not compared if the absolute value of a result reaches this number."""
@@ -118,7 +118,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """Steps of the reference program that begin at the same state. The longest step comes first.
+    """Steps of the reference program from one state. The longest step comes first.
 
     The constructor computes the first step. The method ``results`` computes the shorter steps on demand.
     """
@@ -138,8 +138,8 @@ class _Point:
 class Reference:
     """The results of the reference program after one step. Other programs are compared with these results.
 
-    The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
-    symmetric position). The other point is near the initial state and has no symmetry.
+    The steps begin at two points. One point is the initial state. The initial state may be special (an
+    equilibrium or a symmetric position). The other point is near the initial state and has no symmetry.
 
     From each point, the comparison begins with the longest step of the reference program that has finite
     results and converging iterations. The step size is limited by :data:`REACH`.
@@ -154,7 +154,7 @@ class Reference:
             raise _no_step(scene)
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield the results of steps that begin at the same state. The longest step comes first.
+        """Yield the results of steps from one state. The longest step comes first.
 
         If ``moved`` is True, the steps begin near the initial state. Otherwise they begin at the initial
         state.
@@ -165,7 +165,7 @@ class Reference:
         # If the field is not finite at this state, no step can begin here.
         if not math.isfinite(speed):
             return
-        # The largest step is STEPS[0] / 2**excess. Its product with ``speed`` is at most REACH.
+        # The product of ``speed`` and STEPS[0] / 2**excess is at most REACH.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
@@ -309,7 +309,7 @@ class Reference:
 
     def _gap(self, step: _Step, after: dict[str, Value]) -> str:
         for name in self.kinds:
-            # An input that the step only reads, such as the time, has no new value to compare.
+            # The time and other inputs that the step only reads have no new values to compare.
             if name not in step.after:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))

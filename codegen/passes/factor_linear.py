@@ -1,8 +1,8 @@
 """Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2).
 
-The pass is exact. L is a linear map, such as dexp*, that is the same in all terms. A term L(x) is included
-only if no other operation reads L(x). The pass repeats until nothing changes, so nested maps are also taken
-out.
+The pass is exact. All terms contain the same linear map L, for example dexp*. A term L(x) is included only
+if no other operation reads L(x). The pass repeats until nothing changes, so nested maps are also
+taken out.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The new value gets the name of the first term, so that emitted code shows which map was applied.
+        # The new value gets the name of the first term. In emitted code, this name shows the map.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

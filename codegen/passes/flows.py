@@ -125,7 +125,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # With equal durations, the two flows could give the same state in both orders by symmetry.
+        # The durations differ. With equal durations, flows that do not commute could, by symmetry, still
+        # give the same state in both orders.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -144,7 +145,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
     """Return the parts of the Hamiltonian whose flows commute with the flows of all other parts.
 
-    Only parts that occur in ``letters`` are considered. They are returned in order of first occurrence.
+    Only parts that occur in ``letters`` are considered. The result is in order of first occurrence.
     """
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}

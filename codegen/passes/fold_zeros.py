@@ -41,7 +41,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _sum(rewriter, assign)
-    # A stage at the start of the step has the time t + 0 h, which is replaced by t.
+    # The time t + 0 h of a stage at the start of the step is replaced by t.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
     # Only results of the operations Zero and Identity count as zero and as the identity.
@@ -64,7 +64,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a linear combination in simplified form, and return its variable."""
-    # A coefficient has the form c h^p. Coefficients are added only if they have the same power p.
+    # A coefficient has the form c h^p. Coefficients of a value are added only if p is equal.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -77,7 +77,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # A sum that equals a single value is replaced by this value.
+    # A sum with the single term 1 x is replaced by x.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

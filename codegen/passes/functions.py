@@ -32,7 +32,8 @@ def run(program: Program, scene: Problem) -> Program:
 def rows(program: Program, scene: Problem) -> Program:
     """Fuse some products q exp(x) of matrices: one operation computes the product directly from q and x.
 
-    This saves work if only one row of q exp(x) is needed. A product is fused if three conditions hold:
+    The fused operation saves work if only one row of q exp(x) is needed. A product is fused if three
+    conditions hold:
     - The velocity or the force in the body frame is evaluated at the product.
     - The product is not an output of the program.
     - The formulas for velocity and force contain entries of at most one row of the product.
@@ -118,8 +119,8 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Apply a function F(ad_x) to each term of the sum ``total``. Append the new sum and return its variable.
 
-    ``word`` contains the factors of F. Every term of ``total`` has the form W(ad_y) v with x = s y. Its entry
-    in ``parts`` is (s, (y, W, v)).
+    ``word`` contains the factors of F. Every term of ``total`` has the form W(ad_y) v with x = s y. The
+    entry of this term in ``parts`` is (s, (y, W, v)).
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -166,7 +167,7 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
     """Return x as a linear combination of values that are not sums themselves.
 
-    The result maps pairs (name of a value, power of h) to coefficients. Its keys are sorted.
+    The result maps pairs (name of a value, power of h) to coefficients. The pairs are sorted.
     """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]

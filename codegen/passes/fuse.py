@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
-            # The action can be fused only if its group element is the result of an exponential.
+            # The action of a group element can be fused only if an exponential computes the element.
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

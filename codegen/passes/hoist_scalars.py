@@ -24,11 +24,12 @@ The quotient is c / c1. The value has the coefficient c in this sum and c1 in th
 def run(program: Program) -> Program:
     """Return the program with numbers moved out of linear maps and with nested sums expanded.
 
-    If several sums of an implicit block contain multiples of one linear combination, it is computed once.
+    A linear combination is computed once if several sums of an implicit block contain multiples of the
+    combination.
     """
     while True:
-        # The next round counts how often values are read. Sums that became unused are removed first, so
-        # that they do not count.
+        # The next round counts how often values are read. Unused sums would count as readers, so they are
+        # removed first.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -54,8 +55,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # If a nested sum has several terms and is read several times, expanding it would repeat its
-        # multiplications. Such a sum is not expanded.
+        # A nested sum is not expanded if it has several terms and is read several times. The expansion would
+        # repeat the multiplications of the nested sum.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -72,7 +73,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Compute a linear combination once if several sums of an implicit block contain multiples of it."""
+    """If several sums of an implicit block contain multiples of one combination, compute it only once."""
     builder = Builder({v.name for v in defined(program)})
     # Only implicit blocks are changed: iterations evaluate them several times in a step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
@@ -81,8 +82,8 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values with proportional coefficients in the same sums form a group. Their linear combination is
-    # computed once.
+    # Values form a group if they occur in the same sums with proportional coefficients. The linear
+    # combination of the values of a group is computed once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
@@ -98,8 +99,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The shared linear combination contains no h. Therefore its coefficients in the first sum must have
-        # the same power of h.
+        # The shared linear combination contains no h. Therefore the coefficients of its values in the first
+        # sum must have the same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]

@@ -8,8 +8,8 @@ matrix W. A block of implicit equations computes an unknown v of the stage in th
 
 The pass adds the reversed steps: they compute w from v, then P = W^{-1} w, then M. Forces are computed
 from the new values, and the pass :mod:`codegen.passes.tearing` removes the forces from the unknowns.
-One equation remains for each v: the M of step 1 must equal the M that is computed from v. The function
-:func:`residuals` adds this equation to the block.
+One equation remains for each unknown v: the M of step 1 must equal the M that is computed from v.
+The function :func:`residuals` adds this equation to the block.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """The assignments that compute an unknown from a momentum, which is called the base of the path.
+    """The assignments that compute an unknown from a momentum. The momentum is the base of the path.
 
-    - ``inward`` contains invertible maps. They compute the momentum P of a stage from the base.
+    - ``inward`` contains the invertible maps that compute the momentum P of a stage from the base.
     - ``velocity`` is the assignment that computes the velocity w of the stage from P.
-    - ``outward`` contains invertible maps. They compute the unknown from w.
+    - ``outward`` contains the invertible maps that compute the unknown from w.
 
     The maps are in order of application. The last argument of each map is the result of the previous map.
     """
@@ -73,8 +73,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # ``image`` maps every unknown to the right side of its equation. Both are equal at the solution, so
-        # later statements read the unknown.
+        # ``image`` maps every unknown to the right side of its equation. At the solution, the right side
+        # equals the unknown, so later statements read the unknown.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -143,7 +143,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The inverse of f(ad_x) is 1/f(ad_x), which is again a function of ad_x.
+        # The inverse of f(ad_x) is also a function of ad_x: (1/f)(ad_x).
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
@@ -218,7 +218,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # A later pass removes the new variables that no statement reads.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # A base that differs from P and is not an unknown is defined outside the path. It is not replaced.
+    # A base that differs from P and is not an unknown is defined outside the path. This base is kept.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # If the path itself read the new variables, its equation for the unknown would be trivial.

@@ -13,7 +13,7 @@ from codegen.ir.program import Program
 class Pass:
     """A pass over programs.
 
-    ``because`` is a text in the header of emitted code. It says why the pass can remove operations.
+    ``because`` says why the pass can remove operations. Emitted code contains this text in its header.
     """
 
     name: str
@@ -59,8 +59,8 @@ class PassReport:
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a text for each reason why passes removed operations, in the order of the passes.
 
-    An example is ``2 brackets: the group is abelian``. The number is the sum over all passes with this
-    reason.
+    An example is ``2 brackets: the group is abelian``. The number 2 is the sum over all passes with
+    this reason.
     """
     total: dict[str, Counter[str]] = {}
     for report in reports:

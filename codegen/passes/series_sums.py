@@ -56,7 +56,7 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        # A group has the method ``series_sum`` only if it has closed forms for functions of ad_x.
+        # Only groups with closed forms for functions of ad_x have the method ``series_sum``.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
@@ -122,7 +122,7 @@ class SeriesSums:
         """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # If v is a sum, its terms replace v. This shortens the chains of dependent additions.
+            # If v is a sum, its terms replace v. The chains of dependent additions become shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -137,7 +137,7 @@ class SeriesSums:
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return the value of a coefficient c. If c is rational and negative, return minus the value of -c."""
-    # A program may contain both c x and (-c) x. Both terms use the product with the positive coefficient.
+    # A program may contain both c x and (-c) x. Both are computed from the product with positive c.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

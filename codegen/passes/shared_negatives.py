@@ -1,7 +1,7 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. It is useful for commutator-free and Crouch-Grossman methods, which use both exp(x) and
-dexp*_{-x}. This pass is the last one. Other passes would undo it, because they multiply factors into sums.
+The pass is exact. Commutator-free and Crouch-Grossman methods benefit, because they use both exp(x) and
+dexp*_{-x}. This pass runs last. Other passes multiply factors into sums, and would undo the change.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # If several sums are equal, ``known`` keeps the first. It is defined before all later sums.
+                # If several sums are equal, ``known`` keeps the first, which all later sums can read.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

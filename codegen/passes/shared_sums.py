@@ -104,8 +104,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A combination contains each value once. If a value has two terms with different powers of h, all
-        # terms with this linear map are skipped.
+        # A combination contains each value once. If a value L(x_k) has two terms with different powers of
+        # h, all terms with the map L are skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.

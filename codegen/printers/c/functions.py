@@ -1,7 +1,7 @@
 """Prints functions in C: types, declarations and statements.
 
-The functions are given in the run representation (:mod:`codegen.run.language`), which is the same for
-all target languages. A scalar that is assigned only once is ``const``. An array parameter is ``const`` if the
+The functions are given in the run representation (:mod:`codegen.run.language`). All target languages share
+this representation. A scalar that is assigned only once is ``const``. An array parameter is ``const`` if the
 function does not change the array. Arrays are copied by ``memcpy``, and ``memset`` sets records to zero.
 """
 
@@ -51,7 +51,7 @@ ONE_TEST = "All values x are finite if their sum is finite, or if all difference
 
 
 class FunctionPrinter:
-    """Writes the records, tables and functions of ``unit`` in C. Their names in C start with ``prefix``."""
+    """Writes the records, tables and functions of ``unit`` in C, with names that start with ``prefix``."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -78,7 +78,7 @@ class FunctionPrinter:
         If ``near`` is true, the C function has no branches and is valid only for arguments near zero.
         """
         # Loops over lanes (the systems of a batch) or sites use polynomials for sines and cosines near zero.
-        # All functions of a module with these loops use these polynomials, so all rounding errors agree.
+        # If a module has such loops, all its functions use the polynomials, so all rounding errors agree.
         # Other modules call sin and cos of the C library.
         if not self.batch:
             return name
@@ -183,7 +183,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return the text of a row. Zeros at the end are omitted, because C sets missing entries to zero."""
-    # Zeros at the end of a row are padding, because all rows must have the same length.
+    # All rows must have the same length, so shorter rows are padded with zeros.
     kept = list(row)
     while len(kept) > 1 and not float(kept[-1].removesuffix("f")):
         kept.pop()
@@ -229,7 +229,7 @@ class _Body:
             own = list(self.statement(statement))
             # Statements with sums do not share lines, because several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            # Declarations precede the statement, and no short statement shares a line with them.
+            # Declarations precede their statement and share no line with short statements.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
@@ -242,7 +242,7 @@ class _Body:
     def before(self, statement: Statement) -> list[str]:
         """Return the lines that declare variables before a statement.
 
-        One declaration contains several variables if they are consecutive and have the same type.
+        Consecutive variables of one type share a declaration.
         """
         # In C, a variable exists only inside the loop or branch that declares it. If later statements read
         # the variable, the declaration precedes the loop or branch.
@@ -291,7 +291,7 @@ class _Body:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
             clauses = []
-            # One OpenMP clause lists all variables that are reduced by the same operation.
+            # For each operation, one OpenMP clause lists the variables that the operation reduces.
             # ``dict.fromkeys`` removes repetitions and keeps the order.
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
@@ -319,7 +319,7 @@ class _Body:
         orelse = statement.orelse
         # ``else if`` leaves no place for declarations before the second ``if``.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
-            # The first line of the ``if`` statement in the else part follows ``else`` on the same line.
+            # The inner ``if`` begins on the line of ``else``.
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
             yield from rest
