@@ -42,10 +42,10 @@ class RunToEnd(ABC):
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
         An adaptive module chooses step sizes between ``least`` and ``greatest``. The first step size is
-        ``h``. If ``h`` is 0, the module chooses it. All other modules make steps of size ``h``, but the last
-        step can be shorter. These modules ignore ``rtol``, ``atol``, ``least`` and ``greatest``. Output times
-        and events do not change the step sizes. A terminal event ends the run. By default, ``end`` is the
-        last output time.
+        ``h``. If ``h`` is 0, the module chooses the first step size. All other modules make steps of size
+        ``h``, but the last step can be shorter. All other modules ignore ``rtol``, ``atol``, ``least`` and
+        ``greatest``. Output times and events do not change the step sizes. A terminal event ends the run. By
+        default, ``end`` is the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised if
         output times are not monotone, or if an output time is not between t and end. StepFailed is raised if
@@ -132,7 +132,7 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Reached:
-        """Call the emitted function, which runs to the end, or until its buffer of events is full.
+        """Call the emitted function. The run stops at the end, or when the buffer of events is full.
 
         ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest), and ``times`` are the output
         times.

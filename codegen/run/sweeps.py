@@ -1,7 +1,7 @@
 """Loops that solve implicit equations: fixed-point iteration, and Newton's method in three forms.
 
-The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The components of g(u) or
-r(u) are called the images of the unknowns u.
+The equations are u = g(u) or r(u) = 0. One iteration of a loop is called a sweep. The images of the unknowns
+u are the components of g(u) or r(u).
 
 Fixed-point iteration assigns the images to the unknowns. The last sweep omits this assignment. Therefore the
 unknowns keep the values from which the last sweep has computed its results.
@@ -9,13 +9,13 @@ unknowns keep the values from which the last sweep has computed its results.
 Newton's method multiplies the residuals g(u) - u or r(u) by the inverse of a matrix and adds the product to
 the unknowns. The three forms of Newton's method use different matrices:
 
-- *Newton*: the matrix 1 - g'(u). Its inverse is stored for later sweeps and steps. If a change exceeds
+- *Newton*: the matrix 1 - g'(u). The inverse matrix is stored for later sweeps and steps. If a change exceeds
   ``Newton.CONTRACTION`` times the previous change, the next sweep computes a new matrix. If a new matrix is
   singular, the loop fails. If the change does not decrease with a new matrix, the loop fails, too.
 - *simplified Newton*: the matrix 1 - g'(u), expanded to first order in h. Each step computes the matrix
   before its sweeps.
-- *residuals*: the matrix -r'(u), expanded to first order in h. Its inverse is used for ``Newton.period``
-  steps.
+- *residuals*: the matrix -r'(u), expanded to first order in h. Each inverse matrix is used for
+  ``Newton.period`` steps.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The variables that contain the images, which are the components of g(u) or r(u).
+        """The variables that contain the images: the components of g(u) or r(u).
 
         If a variable other than an unknown contains an image, no new variable is needed. The name of a new
         variable is ``next`` followed by the name of the unknown.
@@ -180,9 +180,9 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The unknowns change only if the loop continues. After convergence they keep their values, because
-        # later statements read results that the last sweep has computed from the unknowns. A single ``If`` is
-        # cheaper than a ``select`` for each unknown.
+        # If the loop continues, the unknowns get new values. After convergence the unknowns keep their
+        # values, because later statements read results that the last sweep has computed from these values. A
+        # single ``If`` is cheaper than a ``select`` for each unknown.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -277,7 +277,7 @@ class _Newton(_Loop):
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
         # ``SCALE`` belongs to the unknowns before this correction. If the initial guess is zero, ``SCALE`` is
-        # 0 in the first sweep, and the first sweep converges only if all changes are 0.
+        # 0 in the first sweep. Then the first sweep converges only if all changes are 0.
         body += self.corrected(changes)
         body += rule.converged()
         # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
@@ -358,7 +358,7 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # The status is set before the call of ``count_sweeps``, which reads the status to record a failure.
+        # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
         sequence.append(Assign(STATUS, code(SINGULAR)))
         singular = inverted.equals(0)
         if self.counting:
@@ -395,7 +395,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # With ``paired``, a processor can compute several partial sums at the same time.
+            # The function ``paired`` groups the terms in pairs. A processor can compute several pairs at the
+            # same time.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         # The loop below reads the residuals from an array, so the variables of the residuals are first copied

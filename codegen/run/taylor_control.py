@@ -2,10 +2,10 @@
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
 of the Taylor polynomial. All norms are maximum norms. Let epsilon = atol + rtol |y|. The number
-(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is exp(-0.7/(p - 1)) times the
-smaller of these two numbers. With this step size, the last two terms of the polynomial are smaller than
+(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is the smaller of the two
+numbers, times exp(-0.7/(p - 1)). With this step size, the last two terms of the polynomial are smaller than
 epsilon. The formula is taken from A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1.
-In the paper the tolerance determines the degree, too. Here the degree is given.
+In the paper the tolerance determines the degree, too. In this module the degree is given.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 LEAST = 1e-30
 """The least norm of a Taylor coefficient in the formula of the step size.
 
-The formula divides by the norm, so a smaller norm is replaced by this number."""
+The formula divides by the norm, so a norm below LEAST is replaced by LEAST."""
 
 ROWS = 4
 """The number of products that one iteration adds to each inner sum (:func:`inner_sums`)."""
@@ -80,8 +80,8 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the run with step control, and the functions that it calls.
 
-    If the kernel has no outputs, :func:`polynomial_step` already returns some of these functions, and they
-    are omitted. If the kernel has no Taylor expansion with step control, the tuple is empty.
+    If the kernel has no outputs, the functions that :func:`polynomial_step` already returns are omitted. If
+    the kernel has no Taylor expansion with step control, the tuple is empty.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
@@ -113,12 +113,12 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     def products(i: int) -> Term:
         """Return the entry of ``left`` in row ``first`` + i times the entry of ``right`` in row ``last`` - i.
 
-        Both entries are in the column ``lane``.
+        Both factors are in the column ``lane``.
         """
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
-        # The products are added in pairs, so that a processor can compute several partial sums at once.
+        # The products are added in pairs, because a processor can compute several pairs at the same time.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
@@ -167,7 +167,7 @@ class _Controlled:
         # arrays of the state are used directly.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
-        # Row k - 1 of this array contains the Taylor coefficients of order k of all coordinates.
+        # Row k - 1 of ``series`` contains the Taylor coefficients of order k of all coordinates.
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
@@ -207,7 +207,8 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the declarations of all local arrays of a step."""
-        # If ``start`` or ``moved`` is the same array as ``state`` or ``trial``, it is not declared twice.
+        # ``start`` can be the array ``state``, and ``moved`` can be the array ``trial``. Then ``start`` or
+        # ``moved`` needs no declaration.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
@@ -255,19 +256,19 @@ class _Controlled:
         # at least two numbers.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
-        # The last n outputs of the kernel ``first`` are the coefficients of order 1. Its other outputs are
-        # values that the loop over the orders needs.
+        # The last n outputs of the kernel ``first`` are the coefficients of order 1. The other outputs of
+        # ``first`` are values that the loop over the orders needs.
         sums, values = own("sum", width), len(ends) - n
         operands = [value(x) for x in every.arrangement.outputs]
         padding = [number(0.0)] * (width - m)
         inner = (
-            # The order is a floating-point variable, because the formulas divide by it.
+            # The order is a floating-point variable, because the formulas divide by the order.
             Assign(ORDER_TERM, ORDER_TERM + 1.0),
             *self.numbers(symbols),
             *inner_sums(k, width, left, right, sums),
             *(
-                # In iteration k the order is k + 1. Row k of ``series`` contains the coefficients of this
-                # order.
+                # In iteration k the order is k + 1. Row k of ``series`` contains the coefficients of order
+                # k + 1.
                 Assign(own(s), self.series[k * n + i])
                 for i, s in enumerate(coordinate_names(n))
                 if s in symbols
@@ -298,7 +299,7 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the numbers that depend only on the order, such as 1/order.
+        """Return the statements that compute numbers that depend only on the order, for example 1/order.
 
         Numbers whose names are not in ``symbols`` are omitted.
         """
@@ -382,7 +383,7 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
             If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
-            # The number of rejected steps is 0. The argument ``rejected`` is needed, because ``run_adaptive``
+            # The number of rejected steps is 0. The argument ``rejected`` exists, because ``run_adaptive``
             # has the same arguments for all methods.
             If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
             Return(STATUS),
@@ -410,8 +411,8 @@ class _Controlled:
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
-            # After the last step the time is exactly ``end``. The sum ``t + h`` could differ from it by a
-            # rounding error.
+            # After the last step the time is exactly ``end``. The sum ``t + h`` could differ from ``end``
+            # by a rounding error.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 negated(self.finite),

@@ -1,8 +1,8 @@
 """Terms: the symbolic expressions in the statements of the run representation (:mod:`codegen.run.language`).
 
-A term is an expression with reals, counts, flags, status codes or arrays. It has a kind and a shape. An
-expression of the class :class:`codegen.ir.expr.Expr` becomes a single term (:func:`value`). Python operators
-build terms and compute nothing:
+A term is an expression with reals, counts, flags, status codes or arrays. Each term has a kind and a shape.
+An expression of the class :class:`codegen.ir.expr.Expr` becomes a single term (:func:`value`). Python
+operators build terms and compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -23,7 +23,7 @@ TOO_FAR, SINGULAR, TOO_SHORT = "TOO_FAR", "SINGULAR", "TOO_SHORT"
 EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT = "EVENT", "BAD_TIMES", "LEAST_STEP", "BAD_EVENT"
 BAD_SHAPE = "BAD_SHAPE"
 BAD_OPERATOR = "BAD_OPERATOR"
-# New codes are added at the end, so that the numbers of the old codes do not change.
+# New codes must be added at the end. Otherwise the numbers of the old codes would change.
 STATUSES = (
     *(OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT),
     *(EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT, BAD_SHAPE, BAD_OPERATOR),
@@ -139,8 +139,8 @@ class Term:
 
     def __iter__(self) -> Iterator[Term]:
         """Raise TypeError, because an array is not a Python sequence."""
-        # Without this method, Python would iterate by calling ``__getitem__`` with 0, 1, 2, ... This would
-        # never end, because ``__getitem__`` accepts every index.
+        # Without this method, Python would iterate by calling ``__getitem__`` with 0, 1, 2, ... The iteration
+        # would never end, because ``__getitem__`` accepts every index.
         raise TypeError("a Term is symbolic and cannot be iterated; read its entries by index, such as x[0]")
 
     def part(self, start: int, size: int) -> Term:
@@ -204,7 +204,7 @@ def own(name: str, *shape: int) -> Term:
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return a record of the type ``of``, or an array of records of this type."""
+    """Return a record of the type ``of``, or an array of such records."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
@@ -242,14 +242,14 @@ def truth(x: bool) -> Term:
 
 
 def value(x: Expr) -> Term:
-    """Return the expression ``x`` as a term. A symbol becomes the variable with the same name."""
+    """Return the expression ``x`` as a term. A symbol becomes the variable with the name of the symbol."""
     # A single symbol becomes a term with the operation ``name``, like every other variable.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
 
 
-# Infinity is a separate operation, because C and Python have no common constant for it.
+# Infinity is a separate operation, because C and Python have no common constant for infinity.
 INFINITY = Term("infinity")
 
 
@@ -315,7 +315,7 @@ def all_finite(*terms: Term) -> Term:
 
 def total(terms: Iterable[Term]) -> Term:
     """Return the sum of terms, added from left to right."""
-    # The order of the additions is fixed, so that C and Python have the same rounding errors.
+    # The order of the additions is fixed. Therefore C and Python have the same rounding errors.
     return reduce(lambda a, b: a + b, terms)
 
 
@@ -324,7 +324,7 @@ def paired(terms: Iterable[Term]) -> Term:
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
-    # The sums a + b and c + d do not depend on one another, so a processor can compute them at the same time.
+    # A processor can compute the sums a + b and c + d at the same time.
     # Compilers are not allowed to regroup a sum, so the grouping is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
@@ -376,14 +376,14 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the variable for the symbol ``name``. Calls with equal names return the same object."""
+    """Return the variable for the symbol ``name``. Calls with the same name return the same object."""
     return own(name)
 
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression in the order in which they first occur."""
-    # Subexpressions are shared. Without the set ``seen`` they would be visited again and again, which could
-    # take exponential time.
+    # Subexpressions are shared. Without the set ``seen``, a shared subexpression would be visited many times,
+    # and the walk could take exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

@@ -1,9 +1,9 @@
-"""The public functions for a single step and for a run of equal steps, which can store a trajectory.
+"""The public functions for a single step and for a run of equal steps. A run can store a trajectory.
 
 If a step fails, the run ends, and the caller gets the state before the failed step. The first row of the
 trajectory is the initial state. After every ``stride`` steps, the run adds one row.
 
-A small explicit kernel is inlined in the loop of the run, so that the state remains in registers.
+A small explicit kernel is inlined in the loop of the run. Therefore the state can remain in registers.
 """
 
 from __future__ import annotations
@@ -96,8 +96,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # States are recorded if the caller passes a stride and an array. Both are tested before the loop,
-            # so that the loop tests only the flag ``recording``.
+            # States are recorded if the caller passes a positive stride and an array. The flag ``recording``
+            # contains the result of these tests, so the loop tests only the flag.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -122,8 +122,8 @@ def own_memory(plan: Plan) -> list[Statement]:
 
     A step stores data for the next step in this memory. If steps store nothing, the list is empty.
     """
-    # The memory is a local variable of the emitted function. Several threads can therefore call the function
-    # at the same time.
+    # The memory is a local variable of the emitted function. Therefore several threads can call the emitted
+    # function at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
@@ -226,7 +226,7 @@ def run(plan: Plan) -> Function:
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # DONE is increased only if the step succeeds, so it is the number of completed steps.
+        # DONE is the number of completed steps. A failed step does not increase DONE.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
@@ -267,8 +267,9 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop changes local copies of the state, which remain in registers. The compiler cannot exclude
-        # that the trajectory overlaps ``state``, so it would store ``state`` to memory in each step.
+        # The loop changes local copies of the state. The copies can remain in registers. The compiler cannot
+        # exclude that the trajectory overlaps ``state``. Without copies, the compiler would therefore store
+        # ``state`` to memory in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -1,7 +1,7 @@
 """Trials of solvers: a kernel makes a few steps from the initial state, and sweeps and matrices are counted.
 
-Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore the numbers of
-sweeps and matrices are the same as in the emitted code.
+Python executes the statements of the emitted code (:mod:`codegen.run.execute`). Therefore a trial
+and the emitted code need equal numbers of sweeps and matrices.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class Trials:
         # Error estimates, derivatives and integrations to an end time do not change the number of sweeps, so
         # a trial omits them.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
-        # The results of trials determine the solver. Trials use doubles, so that the solver does not
-        # depend on the precision of the emitted code.
+        # The results of trials determine the solver. Trials always use doubles. Therefore the choice of the
+        # solver does not depend on the precision of the emitted code.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
         # ``EmittedFloats`` rounds Stumpff functions as the emitted code does. A different rounding could
         # change the number of sweeps.

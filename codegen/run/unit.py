@@ -75,8 +75,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The function ``continued`` repeats a failed step. It calls the function that contains the kernel, so
-        # it comes after this function.
+        # The function ``continued`` repeats a failed step. ``continued`` calls the function that contains the
+        # kernel, so ``continued`` comes later in the list.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))

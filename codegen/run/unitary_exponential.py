@@ -1,7 +1,7 @@
 """The emitted functions that compute the exponential of a matrix in the Lie algebra su(3).
 
-The formulas are derived in :mod:`codegen.ir.unitary_exponential`. They are evaluated in the precision of the
-emitted code.
+The formulas are derived in :mod:`codegen.ir.unitary_exponential`. The emitted code evaluates
+the formulas in its own precision.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def _polynomial(
         *(Assign(x, zero) for part in parts for x in part),
         # The degree n is a multiple of 4, so i^n = 1. The coefficient of the highest power is 1/n!.
         Assign(parts[0][0], coefficient[4 * groups]),
-        # Each iteration makes four steps of Horner's rule, which starts at the highest powers.
+        # Horner's rule starts at the highest powers. Each iteration makes four steps of Horner's rule.
         For(group, groups, tuple(steps), reverse=True),
         *(Assign(target, value) for target, value in squares),
         *(Assign(result[k], value) for k, value in enumerate(entries)),

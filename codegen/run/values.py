@@ -24,7 +24,7 @@ def simple(statement: Simple) -> list[Statement]:
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
     # All Stumpff functions of an argument need the same square root, sine and cosine. Therefore one call
-    # computes all of them.
+    # computes all Stumpff functions of the argument.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
 

@@ -9,8 +9,8 @@ solutions are discarded. The next guess is then the latest solution.
 
 Each solution is stored twice in a ring buffer. Therefore the last ``depth`` solutions are always contiguous
 in memory. The guess for each unknown is a sum over these solutions. If there are at most :data:`FEW`
-unknowns, the sums are scalar variables. Loops over arrays would take as long as the iterations that the
-warm start saves.
+unknowns, the sums are scalar variables. For these few unknowns, loops over arrays would take as long as the
+iterations that the warm start saves.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The loop ends at the latest solution, which is known last.
+            # The latest solution is known last, so the loop ends at the latest solution.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]

@@ -17,7 +17,7 @@ from codegen.run.terms import Term, own
 SHORTEST = 25
 """The least number of entries of an array that is passed, tested or copied as a whole.
 
-The entries of a shorter array are scalar variables, which a compiler can keep in registers."""
+The entries of a shorter array are scalar variables. A compiler can keep scalar variables in registers."""
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
@@ -32,7 +32,7 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
     if results[0] is None:
         return None
     name = results[0][0]
-    # Output k must be result k of this call.
+    # Output k must be result k of the call ``name``.
     if any(x != (name, k) for k, x in enumerate(results)):
         return None
     return own(name, len(outputs))
@@ -67,7 +67,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
     """Return the names of all variables that the statements contain."""
     names = set()
-    # Expressions share subexpressions. One walk over all expressions visits each subexpression once.
+    # Expressions share subexpressions. A single walk over all expressions visits each subexpression once.
     values = []
     for term in terms(body):
         if term.op == "name":

@@ -3,7 +3,7 @@
 A scene is the description of a differential equation by a user. The compiler converts each scene to a
 problem, its internal form.
 
-A scene file imports the names that it uses from this package, for example
+A scene file imports names from this package, for example
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
 
 Scenes with large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and

@@ -1,6 +1,6 @@
 """The ambient equation of a problem on a manifold: the equation y' = F(y) on R^n.
 
-Here y contains the n coordinates of the state, and F(y) is its time derivative.
+Here y contains the n coordinates of the state, and F(y) is the time derivative of y.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The scene gives y' as a formula in matrices, which is shorter than the general formula below.
+            # The scene gives y' as a matrix formula. This matrix formula is shorter than the general formula
+            # below.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)

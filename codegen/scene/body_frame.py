@@ -12,7 +12,7 @@ velocity xi and the force n in the space frame are
     xi = Ad_q W,   n = Ad*_{q^-1} N.
 
 If the inertia is fixed in the body, the kinetic energy is a quadratic form of P with constant coefficients.
-Then W is a constant matrix times P, and the inverse of this matrix gives P from W.
+Then W = A P with a constant matrix A, and P = A^-1 W.
 """
 
 from __future__ import annotations
@@ -43,13 +43,12 @@ points. At each point, AGREEING digits must agree.
 
 @dataclass(frozen=True)
 class BodyField:
-    """The field in the body frame, as formulas in q and P. Here P is the momentum in the body frame.
+    """The field in the body frame, as formulas in q and in the momentum P in the body frame.
 
     The formulas use the symbols of the momentum mu in the space frame for the components of P.
 
-    The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W is a constant
-    invertible matrix times P, ``inverse`` is the inverse of this matrix, as rows of numbers. Otherwise
-    ``inverse`` is None.
+    The equations of motion are q' = q.W and P' = N. ``velocity`` is W, and ``force`` is N. If W = A P
+    with a constant invertible matrix A, ``inverse`` contains the rows of A^-1. Otherwise ``inverse`` is None.
     """
 
     velocity: tuple[Expr, ...]

@@ -23,7 +23,7 @@ def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr
     """Return the components of the force. ``slope`` contains the partial derivatives of the Hamiltonian H
     with respect to the coordinates ``qs`` of q.
 
-    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0. Here e_a is a basis element of the Lie algebra.
+    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0. Here e_a is basis element a of the Lie algebra.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

@@ -5,9 +5,9 @@ scene. If the group has left translations, another form can use the body frame. 
 frame are q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Here W is the velocity, P = Ad*_q mu is the
 momentum, and N is the force in the body frame.
 
-If a factor of the group has a covering group, a form uses coordinates of the covering group. These are fewer
-than the coordinates of the factor. For example, a heavy top has twelve equations for a rotation matrix and
-the momentum. With a unit quaternion and the momentum in the body frame, the top has seven equations.
+If a factor of the group has a covering group, a form uses coordinates of the covering group. The
+covering group has fewer coordinates than the factor. For example, a heavy top has twelve equations for a
+rotation matrix and the momentum. For a unit quaternion and the momentum in the body frame, the top has seven.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def find_form(problem: Problem, key: str) -> ClassicalForm:
 
 
 def operations(roots: Sequence[Expr]) -> int:
-    """Return the number of operations of straight-line code for these formulas.
+    """Return the number of operations of straight-line code for the formulas ``roots``.
 
     >>> from codegen.ir.expr import Space
     >>> x, y = map(Space().sym, "xx")
@@ -113,8 +113,9 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define classical forms.
 
-    One change leads to the body frame, if the equations need fewer operations there than in the space frame.
-    Another change leads to coordinates of covering groups, if a factor of the group has a covering group.
+    If the equations need fewer operations in the body frame than in the space frame, one change leads to the
+    body frame. If a factor of the group has a covering group, another change leads to coordinates of covering
+    groups.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
@@ -232,7 +233,7 @@ class _Change:
 
     @cached_property
     def domain(self) -> ExprDomain:
-        """The number domain in which the formulas are evaluated. Its elements are expressions."""
+        """The number domain in which the formulas are evaluated. Its numbers are expressions."""
         return ExprDomain()
 
     @cached_property
@@ -286,7 +287,7 @@ class _Change:
         )
 
     def key(self) -> str:
-        """Return the key of the classical form, such as ``quaternion`` or ``body-matrix``."""
+        """Return the key of the classical form, for example ``quaternion`` or ``body-matrix``."""
         chosen = [leaf for leaf in self.leaves if leaf.cover is not None] or self.leaves
         short = next(leaf.noun for leaf in chosen if not leaf.group.abelian).rpartition(" ")[2]
         return short if self.covered else f"body-{short}"

@@ -40,7 +40,7 @@ STEP_DIGITS, SLOPE_DIGITS = 10, 12
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` if a problem violates one of these conditions.
+    """Raise :class:`SceneError` if ``problem`` violates one of the following conditions.
 
     - The initial state lies on the manifold.
     - The two formulas of each pair in ``stated`` are equal.
@@ -112,7 +112,7 @@ def check_action(orbit: Orbit) -> None:
     """Raise :class:`SceneError` if the formulas of an action are wrong.
 
     The identity of the group must map a point y to itself. For an element x of the Lie algebra, the velocity
-    of the action must be the derivative of exp(eps x).y with respect to eps at eps = 0. This derivative is
+    of the action must be the derivative of exp(eps x).y with respect to eps at eps = 0. The derivative is
     approximated by a central difference with 40 digits. The test uses one point y and one element x.
     """
     d, group, action = orbit.domain, orbit.group, orbit.action
@@ -167,7 +167,7 @@ def check_flow(
     """Check the user's formulas for the flow of one part of the Hamiltonian.
 
     At the time 0, the formulas must give the initial state of the flow. The time derivatives of the formulas
-    must equal ``rates``, the right-hand sides of the differential equations of the part. They are compared at
+    must equal ``rates``, the right-hand sides of the differential equations of the part. The comparison uses
     the times 0, 1/3 and -2/3. If a condition is violated, :class:`SceneError` is raised. ``elapsed`` is the
     symbol of the time in the formulas.
     """

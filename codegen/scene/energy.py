@@ -7,8 +7,8 @@ pairing <gamma(x), e> is the derivative of H(exp(eps e).x) with respect to eps a
 
 The bivector omega is a skew bilinear form on g*. A field that preserves H has the form x' = f(x).x with
 f = omega(gamma, .). For Hamilton's equations on T*G, omega is the canonical bivector. For all other
-equations, omega is (gamma wedge f)/|gamma|^2. This formula treats gamma as the element of g with the same
-coordinates. It requires that f is zero wherever gamma is zero.
+equations, omega is (gamma wedge f)/|gamma|^2. This formula identifies gamma with the element of g that
+has the same coordinates. The formula requires that f is zero wherever gamma is zero.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """The Hamiltonian H. It is None for field scenes and for scenes with a wrench."""
+        """The Hamiltonian H, or None for field scenes and for scenes with a wrench."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:

@@ -4,8 +4,9 @@ Each product of two power series costs a convolution. Therefore this module choo
 equations contain the fewest products.
 
 The state of a Hamiltonian scene consists of a group element q and a momentum mu. The momentum in the body
-frame is P = Ad*_q mu. The equations q' = q.W and P' = N may contain fewer products than the equations for q
-and mu. Here W and N are the velocity and the force in the body frame (:mod:`codegen.scene.body_frame`).
+frame is P = Ad*_q mu. Let W be the velocity and N the force in the body frame
+(:mod:`codegen.scene.body_frame`). The equations q' = q.W and P' = N may contain fewer products than the
+equations for q and mu.
 
 Coordinates of q are omitted if the remaining coordinates determine them, and if the equations of the
 remaining coordinates do not contain them.
@@ -42,7 +43,7 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
-    - ``inner``: the equations, as a problem on R^m. Here m is the number of coordinates.
+    - ``inner``: the equations, as a problem on R^m for m coordinates.
     - ``outer``: the scene as a field y' = f(y).y.
     - ``body``: the group of q if the coordinates contain the momentum in the body frame, otherwise None.
     - ``missing``: the indices of the coordinates of the state that are omitted.
@@ -100,8 +101,8 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The coefficient of degree 0 is the old value of the coordinate. It is added last, because the
-            # sum of the other coefficients is usually small and has small rounding errors.
+            # The coefficient of degree 0 is the old value of the coordinate. The old value is added last,
+            # because the sum of the other coefficients is usually small and has small rounding errors.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x
@@ -178,14 +179,14 @@ def evolution(scene: Problem) -> Evolution:
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
     """Return the :class:`Evolution` in all coordinates of ``outer``. ``roots`` are the time derivatives of
-    these coordinates.
+    the coordinates.
     """
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # These zeros are not used, because each step begins with the current values of the coordinates.
+    # The zeros are not used, because each step begins with the current values of the coordinates.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,

@@ -1,9 +1,9 @@
 """The figures of a scene. A figure draws the values of formulas along runs of emitted code.
 
-A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
-``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
-symbols of the scene, in its parameters and in the time ``t``. The name of an invariant of the scene denotes
-the formula of this invariant.
+A scene file lists its figures in the variable ``figures``. Each subclass of :class:`Figure` is a kind of
+figure. ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in
+the symbols of the scene, in its parameters and in the time ``t``. In a formula, the name of an invariant of
+the scene means the formula of the invariant.
 """
 
 from __future__ import annotations
@@ -73,9 +73,9 @@ class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
     The command ``figure`` selects a figure by its name. ``source`` is the published figure that is
-    reproduced, such as "Fig. 2.6 of Marthinsen's thesis". ``reference`` is a run with which the other runs
-    are compared, or which is drawn as a thin line. Some kinds of figures do not use ``reference``.
-    ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
+    reproduced, for example "Fig. 2.6 of Marthinsen's thesis". ``reference`` is a run. The other runs are
+    compared with this run, or this run is drawn as a thin line. Some kinds of figures do not use
+    ``reference``. ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -149,7 +149,7 @@ class Motion(Figure):
     - ``seconds``: the duration of one cycle of the animation.
     - ``direction``: the direction from the origin to the viewer, as (azimuth, elevation) in degrees.
 
-    The animation is repeated. It stops while the pointer is on the figure.
+    The animation is repeated. While the pointer is on the figure, the animation stops.
 
     The figure shows only one run.
     """
@@ -164,8 +164,8 @@ class Motion(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
-    """Curves on a torus, drawn in the plane of its two angles. Opposite edges of the picture are the same
-    line on the torus.
+    """Curves on a torus, drawn in the plane of its two angles. Opposite edges of the picture show the
+    same line on the torus.
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
@@ -240,8 +240,8 @@ class Scan(Figure):
     """The distance of the final state of a run from that of the reference run, plotted against a parameter.
 
     Each run needs a :class:`Sweep` with the values of the parameter. The figure marks the parameter value
-    with the least distance. This value is computed by minimisation and may lie between two values of the
-    sweep.
+    with the least distance. This parameter value is computed by minimisation and may lie between two
+    values of the sweep.
     """
 
     axis: str = ""

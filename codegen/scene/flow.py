@@ -4,7 +4,7 @@ The exact flow of a part H_k moves the group element q and the momentum mu along
 
     q' = xi.q,   mu' = n - ad*_xi mu,   xi = D_2 H_k,   n = -(D_1 H_k).q^-1.
 
-Here xi is the velocity and n is the force. D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27
+The velocity is xi, and the force is n. D_1 and D_2 are the derivatives with respect to q and mu (eq. 2.27
 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
 """
 

@@ -69,7 +69,7 @@ class Reader:
             raise self._taken(f"the parameter {symbol.name} has two default values")
 
     def _admit_signal(self, symbol: Signal) -> None:
-        """Record a signal's formula, which may contain only the time and parameters."""
+        """Record the formula of a signal. The formula may contain only the time and parameters."""
         self._allow(symbol.name)
         what = f"signal {symbol.name}"
         for inner in _free_symbols(symbol.formula):

@@ -51,8 +51,8 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu. Here xi = dH/dmu and
-    n = -(dH/dq).q^-1. If H does not depend on t and there is no wrench, the energy is an invariant.
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu with xi = dH/dmu and n = -(dH/dq).q^-1. If H
+    does not depend on t and there is no wrench, the energy is an invariant.
 
     - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
     - ``xi``, ``n``: optional formulas that are compared with dH/dmu and -(dH/dq).q^-1.

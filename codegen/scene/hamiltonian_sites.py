@@ -58,7 +58,7 @@ def HamiltonianSiteScene(
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
     - ``q``, ``mu``: the coordinates of a site (``group.point``, ``group.dual``).
-    - ``H``: the Hamiltonian of one site, without bonds. It is a formula in q, mu, t and parameters.
+    - ``H``: the Hamiltonian of one site, without bonds, as a formula in q, mu, t and parameters.
     - ``bonds``: the energies of bonds (:class:`Bond`). Each energy gives the forces on both sites.
     - ``q0``, ``mu0``: one initial state for all sites. Emitted code also accepts one state for each site.
     - ``boundary``: "periodic" or "open".
@@ -69,7 +69,7 @@ def HamiltonianSiteScene(
     - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts and of the bonds.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
-    :func:`codegen.scene.SiteScene` list. It is also raised for bonds that contain the momentum.
+    :func:`codegen.scene.SiteScene` list, and for bonds that contain the momentum.
     """
     reader = phase_space_reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])

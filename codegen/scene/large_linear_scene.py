@@ -54,9 +54,9 @@ def LargeLinearScene(
       from 0. By default, the columns of the initial state are the first k unit vectors.
     - ``span``: the rational time interval.
 
-    This scene permits methods of the families magnus, cf_magnus, fer, rkmk, cf and cg. Emitted code computes
-    no n x n products or exponentials (:mod:`codegen.ir.linear_array_step`). If the entries of ``A`` are
-    formulas and not lists, the length of the emitted code does not depend on n.
+    The scene permits methods of the families magnus, cf_magnus, fer, rkmk, cf and cg. Emitted code
+    computes no n x n products or exponentials (:mod:`codegen.ir.linear_array_step`). If the entries of ``A``
+    are formulas and not lists, the length of the emitted code does not depend on n.
 
     :class:`SceneError` is raised if ``A`` is not square or contains :func:`codegen.scene.unknown`, and if
     ``y0`` has a wrong size.
@@ -115,6 +115,6 @@ def _start(reader: Reader, n: int, columns: int, y0: Start | None) -> tuple[Expr
 
 
 def _roots(reader: Reader, field: LinearField, parameters: tuple[str, ...]) -> tuple[Expr, ...]:
-    """Return the entries of A(t) row by row, which are the coordinates of A(t) in gl(n)."""
+    """Return the coordinates of A(t) in gl(n): the entries of A(t) row by row."""
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}
     return field.generator(ExprDomain(reader.space), (), scalars)

@@ -1,7 +1,7 @@
 """The extended phase space of a linear Hamiltonian problem y' = A(t).y with canonical coordinates y = (q, p).
 
-The vectors q and p have n components each. If A(t) is in sp(2n), y' = A(t).y is Hamilton's equation for
-H = (q'.p - p'.q)/2 = -y^T J A y/2. Here J is the 2n x 2n block matrix (0, I; -I, 0).
+The vectors q and p have n components each. Let J be the 2n x 2n block matrix (0, I; -I, 0). If A(t) is in
+sp(2n), y' = A(t).y is Hamilton's equation for H = (q'.p - p'.q)/2 = -y^T J A y/2.
 
 The momentum u conjugate to the time has the initial value -H and satisfies u' = -dH/dt. Let a step of a
 method map y to M(t) y, where M(t) is symplectic and t is the time at the start of the step. The step is a

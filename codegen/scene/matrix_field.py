@@ -25,12 +25,12 @@ class MatrixField:
 
     @property
     def rows(self) -> int:
-        """The number of rows of the matrix X, which is the state."""
+        """The number of rows of the state matrix X."""
         return self.program.argument.rows
 
     @property
     def columns(self) -> int:
-        """The number of columns of the matrix X, which is the state."""
+        """The number of columns of the state matrix X."""
         return self.program.argument.columns
 
     def reads(self, symbol: str) -> bool:
