@@ -80,7 +80,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(
                 _plan(plan, deferred.begin),
                 BEGIN,
-                "Apply the first flow of a step, unless the previous step includes it.",
+                "Apply the first flow of a step, unless the step before includes it.",
             )
         )
     if deferred.finish is not None:

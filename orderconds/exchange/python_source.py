@@ -176,7 +176,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
     conditions are not evaluated: all variables in them become unknown. The same is true for the variables in
     each expression that may change a variable.
     """
-    if unsafe_names(statement):
+    if _unsafe_names(statement):
         _doubt([statement], values)
         values.forget([*values.known], statement.lineno)
     elif isinstance(statement, ast.Import):
@@ -188,7 +188,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
     elif isinstance(statement, ast.If) and _is_script_part(statement, values):
         _doubt([*statement.orelse], values)
     elif isinstance(statement, ast.Expr | ast.Assert | ast.Pass):
-        if may_change(statement, values):
+        if _may_change(statement, values):
             _doubt([statement], values)
     elif assigned := list(_assignments(statement)):
         _assign(assigned, values)
@@ -200,10 +200,10 @@ def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
     # In ``A = B = [0]`` both variables are the same list, so each expression is evaluated only once.
     evaluated = {id(expression): values.value(expression) for _, expression in assigned}
     for _, expression in assigned:
-        if may_change(expression, values):
-            values.forget(mentioned(expression), expression.lineno)
+        if _may_change(expression, values):
+            values.forget(_mentioned(expression), expression.lineno)
     for name, expression in assigned:
-        values.assign(name, evaluated[id(expression)], mentioned(expression))
+        values.assign(name, evaluated[id(expression)], _mentioned(expression))
 
 
 def _define(statement: Definition, values: Values) -> None:
@@ -223,14 +223,14 @@ def _define(statement: Definition, values: Values) -> None:
                 parts += [*inner.args.defaults, *filter(None, inner.args.kw_defaults)]
             case other:
                 parts.append(other)
-    if any(may_change(part, values) for part in parts):
-        values.forget(mentioned(statement), statement.lineno)
+    if any(_may_change(part, values) for part in parts):
+        values.forget(_mentioned(statement), statement.lineno)
     _doubt(parts, values, scoped=True)
     for decorator in called:
-        values.forget(mentioned(decorator), statement.lineno)
+        values.forget(_mentioned(decorator), statement.lineno)
     changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
     values.forget(changed, statement.lineno)
-    values.assign(statement.name, Computed("a function or class", statement.lineno), mentioned(statement))
+    values.assign(statement.name, Computed("a function or class", statement.lineno), _mentioned(statement))
 
 
 def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> None:
@@ -240,25 +240,25 @@ def _doubt(nodes: Sequence[ast.AST], values: Values, scoped: bool = False) -> No
     """
     for node in nodes:
         line = getattr(node, "lineno", 0)
-        assigned, changed = bound(node)
-        doubtful = mentioned(node) if may_change(node, values) or (scoped and changed) else set()
+        assigned, changed = _bound(node)
+        doubtful = _mentioned(node) if _may_change(node, values) or (scoped and changed) else set()
         if any(isinstance(x, ast.alias) and x.name == "*" for x in ast.walk(node)):
             doubtful |= values.known.keys()
         for name in set() if scoped else assigned:
-            values.assign(name, Computed("another statement may change the value", line), mentioned(node))
-        values.change(changed, mentioned(node), line)
+            values.assign(name, Computed("another statement may change the value", line), _mentioned(node))
+        values.change(changed, _mentioned(node), line)
         values.forget(doubtful, line)
 
 
-def mentioned(node: ast.AST) -> set[str]:
+def _mentioned(node: ast.AST) -> set[str]:
     """Return the names of all variables that occur in a part of the module."""
     return {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
 
 
-def bound(node: ast.AST) -> tuple[set[str], set[str]]:
+def _bound(node: ast.AST) -> tuple[set[str], set[str]]:
     """Return the variables that a part of the module assigns, and the variables whose values it changes.
 
-    >>> [sorted(names) for names in bound(ast.parse("for k in y: np.array = x[0] = 1"))]
+    >>> [sorted(names) for names in _bound(ast.parse("for k in y: np.array = x[0] = 1"))]
     [['k'], ['np', 'x']]
     """
     assigned: set[str] = set()
@@ -284,18 +284,18 @@ def bound(node: ast.AST) -> tuple[set[str], set[str]]:
     return assigned - {"", "*"}, changed - {""}
 
 
-def unsafe_names(node: ast.AST) -> set[str]:
+def _unsafe_names(node: ast.AST) -> set[str]:
     """Return the names of :data:`UNSAFE_NAMES` in a part of the module."""
     attributes = {x.attr for x in ast.walk(node) if isinstance(x, ast.Attribute)}
     imported = {x.name.partition(".")[0] for x in ast.walk(node) if isinstance(x, ast.alias)}
-    return (mentioned(node) | attributes | imported) & UNSAFE_NAMES
+    return (_mentioned(node) | attributes | imported) & UNSAFE_NAMES
 
 
-def may_change(node: ast.AST, values: Values) -> bool:
+def _may_change(node: ast.AST, values: Values) -> bool:
     """Return True if the evaluation of an expression may change a variable.
 
     >>> values = Values("", ())
-    >>> [may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
+    >>> [_may_change(ast.parse(x), values) for x in ("len(A) + A.sum(axis=1)", "A.pop()", "f(A)", "(A := 1)")]
     [False, True, True, True]
     """
     for x in ast.walk(node):
@@ -377,8 +377,8 @@ def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
     if not place or not isinstance(target, ast.Name):
         return False
     value = values.value(statement.value)
-    if may_change(statement.value, values):
-        values.forget(mentioned(statement.value), statement.lineno)
+    if _may_change(statement.value, values):
+        values.forget(_mentioned(statement.value), statement.lineno)
     return values.assign_entry(target.id, place, value, statement.lineno)
 
 

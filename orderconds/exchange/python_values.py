@@ -302,7 +302,11 @@ class Values:
 
 
 def root_of(node: ast.expr) -> str:
-    """Return the first name of an expression such as ``np.linalg.norm``, or '' if there is none."""
+    """Return the first name of an expression such as ``np.linalg.norm``, or '' if there is none.
+
+    >>> root_of(ast.parse("np.linalg.norm", mode="eval").body)
+    'np'
+    """
     while isinstance(node, ast.Attribute | ast.Subscript | ast.Starred):
         node = node.value
     return node.id if isinstance(node, ast.Name) else ""

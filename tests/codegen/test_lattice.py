@@ -232,7 +232,7 @@ def test_pairs_alone_need_no_part_of_single_sites():
     # The flow of a pair preserves the sum of its spins.
     assert np.abs(result.states.sum(axis=0) - start.sum(axis=0)).max() < 1e-13
     assert lattice.run(np.full((6, 3), 1e200), 0.05, 3).status == Status.NOT_FINITE
-    with pytest.raises(ValueError, match="odd number"):
+    with pytest.raises(ValueError, match="needs an even number"):
         lattice.run(states((5,)), 0.05, 1)
 
 

@@ -274,7 +274,7 @@ class TestAReaderOfAScene:
                 return y
 
         with pytest.raises(
-            SceneError, match=r"the action silence, in a .*point_size\(self, group\) in Silent"
+            SceneError, match=r"the action silence does not define .*point_size\(self, group\) in Silent"
         ):
             scene(Rn(2), DiagonalAction(LeftMultiplication(), Silent()), 2)
         with pytest.raises(SceneError, match=r"silence of the factor R\^2 does not define .*in Silent"):

@@ -188,7 +188,7 @@ def test_a_generator_that_cannot_be_used_is_refused(A, message):
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_field_that_depends_on_the_state_is_refused_with_the_reason(family, scene):
     expected = (
-        f"{family} cannot be used on {scene}, whose field depends on the state; expected a scene y' = A"
+        f"{family} cannot be used on {scene}, whose field depends on the state; expected an equation y' = A"
     )
     for spelling in (f"{family}:{family}4", f"{family}4"):
         with pytest.raises(MethodError) as caught:
@@ -229,7 +229,7 @@ def test_cayley_methods_need_a_group_with_a_cayley_map():
     scene = linear_scene("T*SO(3)")
     with pytest.raises(
         MethodError,
-        match=r"cayley cannot be used on .* whose group is T\*SO\(3\); expected a group whose algebra",
+        match=r"cayley cannot be used on .* whose group is T\*SO\(3\); expected a group whose Lie algebra",
     ):
         compile_method(scene, "cayley4")
 
