@@ -96,7 +96,9 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """One difference between the folder and the expected files: the path of a file, and one of these kinds.
+    """One difference between the folder and the expected files.
+
+    ``path`` is the path of a file. ``kind`` is one of these words:
 
     - ``missing``: the folder does not contain this expected file.
     - ``different``: this expected file has a different content in the folder.

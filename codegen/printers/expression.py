@@ -37,7 +37,7 @@ class Rendering:
 def number(value: Number) -> str:
     """Round a constant to the nearest double, and return the double as text.
 
-    The text is the shortest decimal text that a compiler converts to the same double.
+    The text is the shortest decimal text that a compiler converts to this double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')

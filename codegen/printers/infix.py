@@ -1,7 +1,7 @@
 """Prints terms (:mod:`codegen.run.terms`) as infix text with parentheses and line breaks.
 
-Operations are never regrouped. Parentheses are omitted only if the precedence of operators allows it, as in
-``a * b + c``.
+Operations are never regrouped. Parentheses are omitted only where the precedence of operators makes them
+unnecessary, as in ``a * b + c``.
 
 Target languages have different notations for some operators and functions. Subclasses of :class:`Infix`
 define these notations.

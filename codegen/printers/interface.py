@@ -30,11 +30,11 @@ RUN = ("integrated", "controlled", "events", "dense")
 class Interface:
     """The calling convention of one module.
 
-    - ``prefix`` is the beginning of every external C name. It ends with an underscore.
+    - ``prefix`` is the beginning of every external C name. The prefix ends with an underscore.
     - ``size`` is the number of coordinates of a state.
     - ``time`` is True if the time t is an argument of the step.
     - ``parameters`` are the run-time parameters in the order of the arguments.
-    - ``inputs`` are the names of the run-time inputs, which are functions of time.
+    - ``inputs`` are the names of the run-time inputs. A run-time input is a function of time.
     - ``blocks`` are the labels of the blocks of implicit equations.
     - ``solvers`` has the solution method of each block, in the order of ``blocks``.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
@@ -79,7 +79,8 @@ class Interface:
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel.
 
-        The time t and the parameters are arguments only if the kernel reads them.
+        The time t is an argument only if the kernel reads t. A parameter is an argument only if the kernel
+        reads the parameter.
         """
         used = kernel.used_scalars()
         # Run-time inputs are functions of the time t, so a kernel with inputs reads t.

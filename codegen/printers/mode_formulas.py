@@ -51,14 +51,14 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # Outputs may contain assigned variables. At this point ``names`` contains all of them.
+        # Outputs may contain assigned variables. The loop has added all assigned variables to ``names``.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor, such as ``exp(z)``.
+        """Return the text of a factor, for example ``exp(z)``.
 
-        Here z is the step size times an eigenvalue of the linear part of the equation.
+        The number z is the step size times an eigenvalue of the linear part of the equation.
         ``call(name, argument)`` returns the text of a function call.
         """
         scale = self.style.constant(factor.scale)

@@ -16,7 +16,8 @@ class Recipe:
 
     The data contain no date and no path, so emitting twice gives the same file.
 
-    - ``facts`` are (word, sentence) pairs in the order of the header, such as ("method", "RKMK on rk4 ...").
+    - ``facts`` are (word, sentence) pairs, for example ("method", "RKMK on rk4 ..."), in the order of the
+      header.
     - ``left_out`` has one line for each operation or argument that the module does not need.
     - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
       example.
@@ -98,7 +99,7 @@ def header(
 
     ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
     run-time inputs. ``stack`` is a sentence with a bound on the stack memory of a call. A line has at most
-    ``width`` characters, unless a single word is too long.
+    ``width`` characters. Words are not split, so a line with a very long word may be longer.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

@@ -1,6 +1,6 @@
 """The targets (languages) of the compiler.
 
-The folder of this file contains a package for each built-in target, with a module ``target.py``. The tuple
+For each built-in target, the folder of this file contains a package with a module ``target.py``. The tuple
 :data:`BUILT_IN` lists these targets. A package outside orderconds adds a target in one of two ways: the
 package calls :func:`register`, or it declares an entry point in the group ``orderconds.targets``.
 """
@@ -75,9 +75,10 @@ def names() -> tuple[str, ...]:
 
 
 def target(name: str) -> Target:
-    """Return the target with this name.
+    """Return the target with the name ``name``.
 
-    If the name is unknown, UnknownName is raised. Its message contains the names of all targets.
+    If there is no such target, UnknownName is raised. The message of UnknownName contains the names of all
+    targets.
 
     >>> target("python").title
     'Python'

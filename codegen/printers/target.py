@@ -38,17 +38,17 @@ class Target:
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.integrator.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` is the largest number of steps of a run in a convergence test. Such a run takes about
-      one second.
+    - ``most_steps`` is the largest number of steps of a run in a convergence test. A run with ``most_steps``
+      steps takes about one second.
 
     The other fields are optional:
 
-    - ``compiler`` is a function that compiles the files of a module, without the cache of compiled modules.
-      It returns the elapsed time in seconds.
-    - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
+    - ``compiler`` is a function that compiles the files of a module, without the cache of compiled modules,
+      and returns the elapsed time in seconds.
+    - ``observer`` is a function (integrator, state, t, h) that makes one step and returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression that finds the bound on the stack memory in the file of the step. Its
-      first group matches the number of bytes.
+    - ``stack`` is a regular expression that finds the bound on the stack memory in the file of the step. The
+      first group of the expression matches the number of bytes.
     - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.
@@ -113,5 +113,5 @@ class Target:
 
     def step_file(self, module: str) -> str:
         """Return the name of the file with the step function. ``module`` is the name of the module."""
-        # A module may consist of several files, such as a header and a source in C.
+        # A module may consist of several files. In C, these files are a header and a source.
         return f"{module}{self.suffix}"

@@ -94,8 +94,8 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return the emitted function for an outlined part of a kernel.
 
-    An outlined part is a group of formulas that the kernel uses in several places. The function
-    returns a single result as its value. It writes several results to an array argument.
+    An outlined part is a group of formulas that the kernel uses in several places. If the emitted function
+    has a single result, it returns the result as its value. Several results are written to an array argument.
     """
     body: list[Statement] = []
     for statement in arrangement.statements:

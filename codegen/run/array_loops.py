@@ -51,8 +51,7 @@ argument is the number of columns.
 class ArrayLoops:
     """Translates assignments of matrices into loops.
 
-    ``arrays`` maps names of matrices to arrays. If the name of a matrix is not in ``arrays``, the array of
-    the matrix has the same name as the matrix.
+    ``arrays`` maps names of matrices to arrays. The array of every other matrix has the name of the matrix.
     """
 
     arrays: dict[str, Term]
@@ -184,7 +183,7 @@ class ArrayLoops:
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry at ``place`` of ``term``, which is a matrix or the transpose of a matrix."""
+        """Return the entry of ``term`` at ``place``. The term is a matrix or the transpose of a matrix."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -237,8 +236,8 @@ class ArrayLoops:
             # The entry in row i and column j of a matrix is in row j and column i of its transpose.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
-            # A whole row of the variable matrix is multiplied by one entry of the constant matrix. This entry
-            # is assigned to a variable, so that its formula is evaluated only once.
+            # A whole row of the variable matrix is multiplied by one entry of the constant matrix. The
+            # formula of this entry is evaluated only once, because the entry is assigned to a variable.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
@@ -246,8 +245,8 @@ class ArrayLoops:
         """Return a function that yields statements for a group of columns.
 
         The variable :data:`_ENTRY` contains the entry of the constant matrix in row ``row`` and column
-        ``column``. The statements multiply row ``column`` of ``a.matrix`` by this entry. They assign the
-        product to row ``row`` of ``a.target``, or add it to this row if ``added`` is True.
+        ``column``. The statements multiply row ``column`` of ``a.matrix`` by this entry. If ``added`` is
+        True, the product is added to row ``row`` of ``a.target``. Otherwise the product replaces this row.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -339,8 +338,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # A matrix can occur once for each stage time, with the same name. If its entries are numbers, they do not
-    # depend on the time. Therefore one table is enough for each name.
+    # ``constants`` can contain a matrix once for each stage time, always with the same name. Entries that are
+    # numbers do not depend on the time. Therefore one table is enough for each name.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -374,7 +373,8 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
     Each group has :data:`GROUP` columns. The last group may have fewer columns.
     """
     groups, rest = divmod(columns, GROUP)
-    # A single group of columns needs no loop. It begins at column 0, so its column indices are constants.
+    # A single group of columns needs no loop. The group begins at column 0, so the column indices are
+    # constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
@@ -386,8 +386,8 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
 
 
 def _shifted(first: Term | None, column: int) -> Index:
-    # If the column does not depend on a loop index, an integer is returned, so that the emitted index is a
-    # constant.
+    # If the column does not depend on a loop index, an integer is returned. Then the emitted column index is
+    # a constant.
     if first is None:
         return column
     if first.op == "number":
@@ -409,7 +409,8 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
     """Return the index of a matrix entry in the array that contains the matrix."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
-    # The constant parts of the index are added here, so that the emitted index contains at most one constant.
+    # The constant parts of the index are added here. Therefore the emitted index contains at most one
+    # constant.
     constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
     place: Term | None = None
     for n, x in ((matrix.step, row), (1, column)):

@@ -66,8 +66,8 @@ _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # A ``Move`` multiplies a point by a matrix exponential. Several moves can call the same emitted function.
-    # For each function name, ``moves`` contains the first move that calls this function.
+    # A ``Move`` multiplies a point by a matrix exponential. One emitted function can be called by several
+    # moves. For each function name, ``moves`` contains the first move that calls this function.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
         # The sizes of the arrays are constants in an emitted function. Therefore all moves that call the same
@@ -150,7 +150,8 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A target may be a block of a larger array. This array needs at least ``end`` entries.
+        # A target may be a block of a larger array. The array that contains the target needs at least ``end``
+        # entries.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -214,7 +215,8 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # The core is an m x m matrix. It is multiplied by the first m rows and columns of the Gram matrix.
+        # The core is an m x m matrix. The first m rows and columns of the Gram matrix are multiplied by the
+        # core.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
@@ -233,7 +235,7 @@ class _Exponential:
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
-        # ``scale`` is 1/``parts``. It has no rounding error, because it is a power of 2.
+        # ``scale`` is 1/``parts``. Powers of 2 are exact, so ``scale`` has no rounding error.
         halved = (Assign(scale, 0.5 * scale), Assign(parts, 2 * parts))
         yield While(both(norm * scale > 1.0, parts < MOST_PARTS), halved)
         yield from self.terms(norm * scale)
@@ -256,7 +258,7 @@ class _Exponential:
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The last included term of the
         # series exp(z) - 1 = z + z^2/2! + ... is z^(n + 1)/(n + 1)!. The norm of the first omitted term is at
-        # most theta^(n + 2)/(n + 2)!. This number is ``bound``.
+        # most ``bound`` = theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -285,8 +287,8 @@ class _Exponential:
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
         # Let X = X_0 + B D be the current point, and let G be B^T B. Then B^T X is the sum of B^T X_0 and
-        # G D. The following statements compute the first m rows of this sum in ``total``. The first k columns
-        # of B are X_0, so the first k columns of G are B^T X_0.
+        # G D. The following statements compute the first m rows of B^T X in ``total``. The first k columns of
+        # B are X_0, so the first k columns of G are B^T X_0.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(

@@ -5,8 +5,8 @@ In an array of the batch, component k of lane i has the index ``k * stride + i``
 
 An explicit step is computed by one loop over many lanes. The loop has no branches, so compilers can use
 vector instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near
-zero. For all other arguments they return NaN. If the new state of a lane is not finite, the step function
-for one system (the scalar step) is called for this lane. In all other lanes, the result has the same rounding
+zero. For all other arguments the result is NaN. If the new state of a lane is not finite, the step function
+for one system (the scalar step) is called for this lane. In all other lanes, the loop has the same rounding
 errors as the scalar step.
 
 Some steps cannot be computed by one loop without branches. An example is a step that solves equations. For
@@ -69,7 +69,9 @@ lanes."""
 BLOCK = 128
 """The number of lanes in a block.
 
-All steps of a block are made one after another. This keeps the states of its lanes in the cache."""
+For each block, all steps are made one after another. During these steps, the states of the block stay in the
+cache.
+"""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The names of functions that can be computed without branches.
@@ -77,8 +79,8 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 The loop over lanes calls only these functions and the Stumpff functions."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a loop over a block, ``_LANE`` is the index of a lane in the block, and ``_PLACE`` is the index of the
-# same lane in the batch.
+# In a loop over the lanes of a block, ``_LANE`` is the index of a lane in the block. ``_PLACE`` is the index
+# of this lane in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -112,7 +114,7 @@ def obstacle(plan: Plan) -> str:
         return "the loop over lanes cannot pass arrays to the functions that a step calls"
     # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
-    # The names are sorted, so that the message always names the same function.
+    # The names are sorted, because the message must not vary between runs.
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
     return f"branches in the function {others[0]} prevent vector instructions" if others else ""
 
@@ -162,14 +164,14 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 
 
 def _advance_lanes(plan: Plan) -> Function:
-    """Return the function that makes one step of many lanes. Its loop over lanes has no branches."""
+    """Return the function that makes one step of many lanes. The loop over lanes has no branches."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
     # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
     read = plan.arrangement.symbols()
-    # In a batch the inputs of a lane are constant, so the kernel reads the same inputs at all times.
+    # In a batch the inputs of a lane are constant, so all samples of the kernel have the same values.
     for sample in plan.kernel.samples:
         loaded += [
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
@@ -216,8 +218,8 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
     """Return two lists of the statements of the kernel.
 
-    The statements of the first list have the same results in all lanes, because they depend only on the time
-    and the step size. The second list contains all other statements.
+    The first list contains the statements that depend only on the time and the step size. These statements
+    have the same results in all lanes. The second list contains all other statements.
     """
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
@@ -225,7 +227,8 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
         for single in simple(statement):
             if all(term.text in shared for term in reads(single) if term.own or term.text not in shared):
                 before.append(single)
-                # A value that is computed only from shared values is the same in all lanes.
+                # ``shared`` contains the names of values that are the same in all lanes. A value that is
+                # computed only from these values is also the same in all lanes.
                 shared |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)
@@ -298,7 +301,7 @@ def _one_by_one(plan: Plan) -> list[Statement]:
     arguments = (alone, *time, STEP, STEPS, *_values(plan), *signals, *none, _ENDED)
     body: list[Statement] = [
         Assign(_PLACE, _LANE),
-        # The arrays are declared inside the parallel loop, so that each iteration has its own arrays.
+        # The arrays are declared inside the parallel loop. Therefore each iteration has its own arrays.
         *_arrays(plan),
         # The function ``run`` stores the number of completed steps in an array with one entry.
         Array(_ENDED),
@@ -317,14 +320,15 @@ def _blocks(plan: Plan) -> list[Statement]:
     statuses, ended = _statuses(), count("completed", 0)
     block = count("block")
     rest = _TOTAL - _FIRST
-    # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
+    # The time of each step is computed from the initial time. A sum of step sizes would accumulate rounding
+    # errors.
     later = exact_time(TIME, _DONE, STEP)
     shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
     vector = (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(later), *shared, stopped, failed)
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # If the scalar step fails, the lane stops. It has completed ``_DONE`` steps.
+    # If the scalar step fails, the lane stops after ``_DONE`` completed steps.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),

@@ -1,9 +1,10 @@
 """Find out why the result of a step is not finite. The cause is the step size or the state.
 
-After a failure, the emitted function ``cause`` tries a step of size zero from the same state. If this step
-has a finite result, the failed step was too long, and the status is TOO_FAR. For example, an angle was so
-large that it had no correct digit, a formula had a pole, or a number overflowed. If the step of size zero
-also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
+After a failed step, the emitted function ``cause`` tries a step of size zero from the state before the failed
+step. If the step of size zero has a finite result, the failed step was too long, and the status is TOO_FAR.
+For example, an angle was so large that it had no correct digit, a formula had a pole, or a number overflowed.
+If the step of size zero also fails, the vector field is not finite at this state, and the status remains
+NOT_FINITE.
 
 Steps with run-time inputs or a warm start do not call this function. If a step with a warm start fails, the
 continuation finds the cause (:mod:`codegen.run.continuation`).
@@ -29,9 +30,8 @@ def is_searched(plan: Plan) -> bool:
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. The arguments of this function are the state, the
-    time, the step size, and ``more``. If the step does not depend on the time, there is no argument for the
-    time.
+    ``core`` is the name of the function that makes a step. The arguments of ``core`` are the state, the time,
+    the step size, and ``more``. If the step does not depend on the time, there is no argument for the time.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)

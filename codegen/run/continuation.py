@@ -74,7 +74,7 @@ def continued(plan: Plan, core: str) -> Function:
 class _Continuation:
     """Builds the emitted function that repeats a failed step.
 
-    The class attributes are variables of this function.
+    The class attributes are variables of the emitted function.
     """
 
     # The current attempt has the step size ``part`` times h. ``solved`` is the largest fraction of h that
@@ -111,7 +111,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # This is an initial value. Every failed attempt replaces it.
+            # Every failed attempt replaces this initial value.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -137,8 +137,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        This is the status of the last failed attempt. If a shorter step succeeded and there are no run-time
-        inputs, NOT_FINITE is replaced by TOO_FAR.
+        The result is the status of the last failed attempt. If a shorter step succeeded and there are no
+        run-time inputs, NOT_FINITE is replaced by TOO_FAR.
         """
         # A shorter step reads the run-time inputs at other times. Even if a shorter step succeeds, the cause
         # may be an input and not the step size.
@@ -155,7 +155,7 @@ class _Continuation:
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
         # If ``known`` is 1, the stopping rule reads rates of convergence from the memory. No rates are known
-        # for this step size, so the default value 1 is stored.
+        # for the step size of this attempt, so each rate gets the default value 1.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),

@@ -43,7 +43,7 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Flags for modules that loop over the systems of a batch, lattice sites or Fourier modes.
 
-These flags are set in addition to :data:`FLAGS`. They make loops faster and do not change the results.
+These flags are added to :data:`FLAGS`. The added flags make loops faster and do not change the results.
 """
 
 FRAMES = 640
@@ -60,7 +60,7 @@ equations need more memory, because an optimiser moves constant expressions out 
 stores their values. In measurements, these steps needed at most 8.8 bytes per number in double precision, and
 at most 8.0 bytes in single precision.
 
-The constants are the same in single precision: an optimiser may store two floats in 16 bytes.
+Both constants are also used for single precision, because an optimiser may store two floats in 16 bytes.
 """
 
 LARGEST_STACK = 6 * 2**20
@@ -176,8 +176,8 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the sorted names of the helper functions and library functions that a module calls."""
-    # Branches prevent vector instructions in loops over lanes (systems of a batch) or sites. Such loops call
-    # variants of sin, cos and the Stumpff functions without branches, for example ``sin_near``.
+    # Branches prevent vector instructions in loops over lanes (systems of a batch) or sites. For sin, cos and
+    # the Stumpff functions, these loops call variants without branches, for example ``sin_near``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -218,8 +218,8 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 def inverted(kernel: Kernel) -> int:
     """Return the size of the matrices that a step inverts by elimination, or 0.
 
-    If all matrices have the same size n, and n is at most :data:`~codegen.run.sweeps.WIDE`, the result is n.
-    Then the inner loop of the emitted function ``invert`` is unrolled.
+    The result is n if all these matrices are n x n, and n is at most :data:`~codegen.run.sweeps.WIDE`. Then
+    the inner loop of the emitted function ``invert`` is unrolled. Otherwise the result is 0.
     """
     sizes = inverted_sizes(kernel)
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
@@ -234,8 +234,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The emitted function ``invert`` adds FRAMES / 2 bytes. A kernel that is inlined in ``run`` has no stack
-    # frame of its own, which saves FRAMES / 2 bytes.
+    # The emitted function ``invert`` adds FRAMES / 2 bytes. If the kernel is inlined in ``run``, it has no
+    # stack frame of its own. Then the bound is FRAMES / 2 bytes smaller.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],

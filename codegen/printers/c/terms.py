@@ -37,7 +37,7 @@ def literal(precision: Precision, x: float) -> str:
 
 
 def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
-    """Return the conventions of C for constants and function names, such as ``0.5f`` and ``sqrtf``.
+    """Return the conventions of C for constants (``0.5f``) and function names (``sqrtf``).
 
     Names of functions outside the mathematical library start with ``prefix``. ``forms`` maps the name of a
     function to the name of the variant that the code calls, for example a variant without branches.
@@ -90,8 +90,8 @@ class Terms(Infix):
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the texts of two tests. All values are finite if and only if at least one test is true."""
-        # The first test checks whether the sum of all values is finite. This test is fast, but a sum of
-        # finite values may overflow.
+        # The first test checks whether the sum of all values is finite. This test is fast, but it may fail
+        # for finite values, because their sum may overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # The second test has no overflow: it adds the differences x - x. The sum is 0 if all x are finite.
         # For an infinity or a NaN, x - x is a NaN.

@@ -165,7 +165,8 @@ class _Body:
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
         """Return the assignments at the beginning of ``body`` that one statement can replace.
 
-        These assignments read or write consecutive entries of one list.
+        Either all these assignments read consecutive entries of one list, or all of them write consecutive
+        entries of one list.
         """
         group: list[Assign] = []
         for statement in body:
@@ -197,7 +198,7 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # All assignments must read or write the same list.
+        # ``statement`` must read or write the same list as the first assignment of the group.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # A slice assignment computes all values before it changes the list. If a value depends on an entry
@@ -276,7 +277,7 @@ class _Body:
         """Yield the lines that assign a scalar, copy an array or clear a record."""
         target, value = statement.target, statement.value
         name = self.terms.line(target)
-        # The record is cleared in place, because the caller refers to the same object.
+        # The caller also uses this record. Therefore the record is cleared, and no new record is created.
         if value.op == "fresh":
             yield f"{'    ' * depth}{name}.clear()"
             return

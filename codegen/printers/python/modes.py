@@ -38,7 +38,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     """Return the emitted Python module, as a map from the name of its file to its text."""
     step = kernel.modes
     assert step is not None
-    # The emitted module has the variables f0, f1, ... for factors of the coefficients. It has the variables
+    # The emitted module has the variables f0, f1, ... for factors of the coefficients, and the variables
     # value1, value2, ... for values of the nonlinear part of the equation.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
@@ -69,7 +69,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "functions": _functions(step),
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
-        # The derivative of order 0 is the function itself. It needs no differentiation.
+        # The derivative of order 0 is the function itself, so the order 0 is omitted.
         "orders": sorted({*step.nonlinearity.outer, *(m for m, _ in step.nonlinearity.inner)} - {0}),
         "kept": step.nonlinearity.kept,
         "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],

@@ -162,7 +162,8 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        # This call collects the constants. ``self.constants.digits`` is complete only after the call.
+        # The method ``parts`` collects the constants. ``self.constants.digits`` is complete only after this
+        # call.
         parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {

@@ -8,7 +8,7 @@ from typing import Protocol
 
 
 class LoadedModule(Protocol):
-    """An object that contains an emitted Python module and can make steps with it."""
+    """An object that contains an emitted Python module. The method ``run`` makes steps with this module."""
 
     module: ModuleType
 
@@ -35,5 +35,5 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
         integrator.run(list(state), h, 1, t)
     finally:
         vars(module)["_remember"] = remember
-    # A dictionary keeps the order of insertion, which is the order of the substeps.
+    # The unknowns were inserted in the order of the substeps, and a dictionary keeps this order.
     return list(solved.values())

@@ -125,7 +125,7 @@ class Terms(Infix):
 
     def tuple_of(self, terms: tuple[Term, ...]) -> str:
         """Return the text of a tuple of terms."""
-        # The comma after a single term makes a tuple of it.
+        # In Python, a tuple with a single term needs a comma after the term.
         return f"({', '.join(map(self.line, terms))}{',' if len(terms) == 1 else ''})"
 
     def number(self, term: Term) -> str:

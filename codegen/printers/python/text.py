@@ -34,7 +34,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
 def packed(segments: Sequence[str], depth: int) -> list[str]:
     """Return indented lines that contain the segments, separated by spaces.
 
-    A line has at most :data:`WIDTH` characters, unless a single segment is longer.
+    A line has at most :data:`WIDTH` characters. Only a line with a single long segment may be longer.
     """
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
@@ -69,7 +69,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     If this line is too long, the terms are in parentheses on several lines.
     """
     space = "    " * depth
-    # The comma after a single term makes a tuple of it.
+    # In Python, a tuple with a single term needs a comma after the term.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]

@@ -35,7 +35,8 @@ _INTEGRATION = """
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())
-"""Names that a module needs for its function ``integrate``, which integrates to a given end time.
+"""Names that a module needs for its function ``integrate``.
 
-These names are reserved only in a module with this function.
+The function ``integrate`` integrates to a given end time. Modules without ``integrate`` do not reserve these
+names.
 """
