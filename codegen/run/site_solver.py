@@ -55,7 +55,8 @@ class _Stopping(Stopping):
 
     def converged(self) -> list[Statement]:
         """Return the statements that test whether the unknowns have converged."""
-        # The loop over the states takes time. Its result is needed only if the changes no longer decrease.
+        # The function ``REACH`` loops over the states of all sites. To save time, it is called only if the
+        # changes no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
         # Compilers require that ``_REACH`` always has a value, so zero is assigned first. The stopping rule
@@ -83,8 +84,8 @@ def iterated(
 ) -> list[Statement]:
     """Return the statements that repeat ``iteration`` until the unknowns converge.
 
-    If the unknowns do not converge, the statements return the status of this failure. If Newton's matrix is
-    singular, they return the status SINGULAR.
+    If the unknowns do not converge, the statements return the status NOT_CONVERGED or NOT_FINITE. If Newton's
+    matrix is singular, the statements return the status SINGULAR.
     """
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)

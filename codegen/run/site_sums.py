@@ -35,7 +35,7 @@ def sum_of_terms() -> Function:
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum of a chunk overwrites the first number of this chunk, which is no longer needed.
+        # The first number of a chunk is no longer needed, so the sum of the chunk overwrites this number.
         Assign(work[_START + FIRST], _PART),
     )
     # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because

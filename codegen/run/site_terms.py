@@ -34,12 +34,12 @@ Otherwise most sites are computed with fast variants for arguments near zero."""
 # The size 0 means that the length of an array is known only at run time.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
-"""A loop over consecutive sites is divided into chunks of CHUNK sites, which several processors can execute.
+"""A loop over consecutive sites is divided into chunks of CHUNK sites.
 
-For fewer than MANY_SITES sites, one processor executes all loops, because threads save no time on small
-lattices. On 1024 spins, a step of the method ``cf4`` takes the same time with one and with two threads. On
-4096 spins, two threads need 0.55 times as long as one thread. These times were measured with
-``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES."""
+Several processors can share the chunks. For fewer than MANY_SITES sites, one processor executes all loops,
+because threads save no time on small lattices. On 1024 spins, a step of the method ``cf4`` takes the same
+time with one and with two threads. On 4096 spins, two threads need 0.55 times as long as one thread. These
+times were measured with ``benchmarks/lattice.py --threads 2``, without the limit MANY_SITES."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -48,7 +48,7 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a parallel loop over ``number`` consecutive sites, which are divided into chunks.
+    """Return a parallel loop over the chunks of ``number`` consecutive sites.
 
     ``body`` computes one chunk. The chunk has SIZE sites, and its first site has the index FIRST.
     """
@@ -67,7 +67,7 @@ def distributed(loop: For, reductions: tuple[tuple[str, Term], ...] = ()) -> For
 
 
 def shape_of(step: SiteStep) -> Term:
-    """Return the argument ``shape``. It contains the number of sites in each dimension."""
+    """Return the argument ``shape``, an array with the number of sites in each dimension."""
     return count("shape", step.dimension)
 
 
@@ -81,10 +81,10 @@ value of an unknown. The third number is finite only if all changes are finite."
 def padded(sites: Count) -> Count:
     """Return the distance between two rows of the workspace: an odd multiple of 8, at least ``sites``.
 
-    The distance is not a large power of two such as 512. With such a distance, the numbers of one site would
-    compete for the same few lines of a cache. A step of the method ``cf4`` would take 1.7 times as long on
-    1024 x 1024 spins (``benchmarks/lattice.py --side 1024``). On a rod of 512 sections, a step would take 2.3
-    times as long (``benchmarks/rod.py``).
+    If the distance were a large power of two, such as 512, the numbers of one site would compete for the same
+    few lines of a cache. A step of the method ``cf4`` would then take 1.7 times as long on 1024 x 1024 spins
+    (``benchmarks/lattice.py --side 1024``). On a rod of 512 sections, a step would take 2.3 times as long
+    (``benchmarks/rod.py``).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]

@@ -8,7 +8,8 @@ consecutive sites whose neighbours all exist. The loop in ``sweep_K`` has no bra
 vector instructions. ``site_K`` computes one site, which may be at the boundary. ``pass_K`` calls both
 functions and computes all sites.
 
-``sweep_K`` uses fast sines, cosines and Stumpff functions. They return NaN for arguments far from zero.
+``sweep_K`` uses fast sines, cosines and Stumpff functions. For arguments far from zero, these fast functions
+return NaN.
 ``site_K`` accepts all arguments. If the new state is not finite at some site, the step is repeated with
 ``site_K`` for all sites. A finite result of ``sweep_K`` is equal to the result of ``site_K``, bit for bit.
 Sweeps for implicit equations are repeated until the unknowns of all sites converge
@@ -194,8 +195,8 @@ class Loop:
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store and test the results ``ends`` of one site."""
-        # The first results are the new values of the unknowns. Newton's method stores residuals instead of
-        # these values.
+        # The first results are the new values of the unknowns. For Newton's method, the residuals are stored
+        # in place of the new values.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
@@ -251,7 +252,7 @@ class Loop:
         return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
 
     def name(self, of: str) -> str:
-        """Return the name of a function, such as ``site_2`` for ``of`` = "site" and sweep number 2."""
+        """Return the name of a function. For ``of`` = "site" and sweep number 2, the name is ``site_2``."""
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
@@ -307,7 +308,8 @@ class Loop:
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # This load is executed even if the neighbour is missing. Then it reads an existing site.
+            # This load is executed even if the neighbour is missing. In this case, the load reads an
+            # existing site.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -317,7 +319,7 @@ class Loop:
 
         The first argument is the index of the first site of the row. The next arguments are the indices of
         the first sites in the rows of the neighbours. In an open lattice with several rows, the last
-        arguments are flags. They are true for rows that exist.
+        arguments are flags, one for each neighbour. A flag is true if the row of its neighbour exists.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
@@ -369,7 +371,7 @@ class Loop:
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # A chain has a single row. The row is divided into chunks, which several processors compute.
+        # A chain has a single row. Several processors compute the chunks of this row.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
@@ -435,7 +437,8 @@ def _too_small(step: SiteStep) -> Term:
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
         # In a periodic lattice, ``shape[e]`` is added once to an index that is too small, or subtracted once
-        # from an index that is too large. Once is enough only if ``shape[e]`` is larger than all offsets.
+        # from an index that is too large. A single addition or subtraction is enough only if ``shape[e]``
+        # is larger than all offsets.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
@@ -445,7 +448,7 @@ def _too_small(step: SiteStep) -> Term:
 
 
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
-    """Return the public function, which makes several steps of equal size.
+    """Return the public function that makes several steps of equal size.
 
     If ``twice`` is True, a step whose result is not finite is repeated once. The repeated step uses sines,
     cosines and Stumpff functions that accept all arguments.

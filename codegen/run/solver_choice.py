@@ -1,13 +1,13 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method can use the same matrix in several steps. Simplified Newton computes a matrix in each step or
-substep, correct to first order in h. Both matrices are described in :class:`codegen.ir.kernel.Newton`.
-Fixed-point iteration needs no matrix, and each sweep multiplies its error by a factor O(h).
+Newton's method can keep its matrix for several steps. Simplified Newton computes a matrix in each step or
+substep, correct to first order in h. :class:`codegen.ir.kernel.Newton` describes the matrices of both
+methods. Fixed-point iteration needs no matrix, and each sweep multiplies the error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). The first
 trial of a solver (:mod:`codegen.run.trial`) makes :data:`STEPS` steps from the initial state of the problem's
-example. It counts the sweeps and the computed matrices. From these counts the cost model
+example. The trial counts the sweeps and the computed matrices. From these counts the cost model
 (:mod:`codegen.run.step_cost`) predicts the time of a step. ``benchmarks/solver_choice.py`` compares the
 choices with measured times.
 
@@ -20,8 +20,8 @@ A robust solver is preferred if its predicted time is at most :data:`PRICE` time
 solver. Without this limit, a step would take 5 to 14 times as long for some problems of the gallery with 24
 or 36 unknowns (``benchmarks/README.md``).
 
-For linear equations, a robust solver is preferred at any cost. Its steps may be slower, but they can be much
-longer, so the whole run may be faster.
+For linear equations, a robust solver is preferred at any cost. A step may take more time, but the step size
+can be much larger, so the whole run may be faster.
 
 A kernel with many unknowns takes long to build and to try. Therefore a lower bound of its step time is
 computed first. If another solver is known to be preferred even at this bound, the kernel is not built
@@ -58,13 +58,13 @@ STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """The first trial of a solver makes STEPS steps of the usual size.
 
 If there are more than LARGE unknowns, the first trial makes only FEW_STEPS steps. If the solver converges, a
-second trial makes one step. Its size is LONGER times the usual size.
+second trial makes one step of LONGER times the usual size.
 """
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the long step of the second trial.
 
-This number is half the limit at which an iteration fails (``Loop.limit``)."""
+SWEEPS is half of ``Loop.limit``. An iteration fails if it has not converged after ``Loop.limit`` sweeps."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -74,12 +74,12 @@ solver.
 LARGE = 64
 """With more than LARGE unknowns, the first trial makes only FEW_STEPS steps.
 
-With this number of unknowns, continuation in h is not tried. It might take thousands of sweeps.
+Continuation in h is not tried either, because it might take thousands of sweeps.
 """
 
 
 NONLINEAR = 2
-"""The degree of an expression that is not linear in the unknowns. It represents all degrees above one."""
+"""The degree of all expressions that are not linear in the unknowns."""
 
 
 @dataclass(frozen=True)
@@ -202,7 +202,7 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
             degree = max(args)
         elif e.op == "mul":
             degree = sum(args)
-        # A quotient is a polynomial in the unknowns only if its denominator does not contain them.
+        # A quotient is a polynomial in the unknowns only if the denominator contains no unknowns.
         elif e.op == "div" and not args[1]:
             degree = args[0]
         # Any other operation on the unknowns counts as nonlinear.
@@ -314,7 +314,7 @@ class _Selection:
         reasons = []
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
-            # If the fastest solver of this block is not robust, the text states its weakness.
+            # If the fastest solver of this block is not robust, the text states the weakness of that solver.
             if fastest[k] not in robust:
                 reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
@@ -359,7 +359,7 @@ class _Selection:
         ``candidate`` has been tried and converges. ``solver`` is its solver.
         """
         # If ``candidate`` is not robust, a robust solver may take PRICE times as long. For Newton's method
-        # with more than LARGE unknowns, this factor is omitted, to avoid a slow trial of simplified Newton.
+        # with more than LARGE unknowns, PRICE is omitted, to avoid a slow trial of simplified Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -370,10 +370,10 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The bound assumes that each solution of a block takes one sweep. It omits the inversion of small
-        matrices, because the formulas for these inverses are not known before the kernel is built.
+        The bound assumes that each solution of a block takes one sweep. The bound omits the inversion of
+        small matrices, because the formulas for their inverses are not known before the kernel is built.
         """
-        # This is the work of the sweeps. The loop below adds the work with matrices.
+        # First ``total`` is the work without matrices. The loop below adds the work with matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )

@@ -20,7 +20,7 @@ def statistics_record(plan: Plan) -> Record:
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
         (count("most"), "largest number of sweeps of one block in one step or substep"),
-        # Blocks are numbered from 1, so that 0 can mean that no block failed.
+        # Blocks are numbered from 1, because 0 means that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
     # Simplified Newton needs no such field, because it computes one matrix in each step or substep.

@@ -77,7 +77,7 @@ class StatusCode:
     reason: str
 
 
-# Each status has the same number in all emitted modules.
+# All emitted modules use the index in STATUSES as the number of a status.
 MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
 """Maps each status that a step on Fourier modes can return to its number."""
 

@@ -69,8 +69,9 @@ def kernel_step(plan: Plan) -> Function:
     # The kernel does not read some entries of the state. A NaN in such an entry would not appear in the
     # results of the kernel, so these entries are tested separately.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The initial guess for the next step does not depend on the outputs of the kernel. Its statements are
-    # placed before the outputs, so that a processor can compute both at the same time.
+    # The initial guess for the next step does not depend on the outputs of the kernel. The statements
+    # for the guess are placed before the outputs. Then a processor can compute the guess and the outputs at
+    # the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -161,8 +162,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # The initial guess is extrapolated from earlier solutions on a smooth curve. Only the solutions of the
-    # same substep in successive steps lie on such a curve. Therefore each substep has its own memory.
+    # The initial guess is extrapolated from earlier solutions. These solutions must lie on a smooth curve, so
+    # they must belong to one substep of successive steps. Therefore each substep has its own memory.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

@@ -8,10 +8,10 @@ limited to [0.2, 5]. If the trial directly before the accepted step was rejected
 [0.2, 1]. After a rejected step, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
-I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). With the exponents
-0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would oscillate less, but it would follow the
-solution more slowly. For example, the method ``dop853`` would need 15 to 20 % more steps for the problem
-``heavy_top``.
+I, section II.4. The controller is by Gustafsson (Hairer and Wanner, Solving Ordinary Differential Equations
+II, section IV.2). With the exponents 0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would
+oscillate less, but it would follow the solution more slowly. For example, the method ``dop853`` would need 15
+to 20 % more steps for the problem ``heavy_top``.
 
 If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
 If the step is accepted, the step size is multiplied by 0.9 norm^(-1/p), limited to [0.2, 16]. If the guess
@@ -68,7 +68,7 @@ has the exponent -4 SHARE/p. The error norm of the previous accepted step has th
 FLOOR = 1e-4
 """The least error norm that the controller stores for the next step.
 
-A smaller norm may occur by accident. It is replaced by this value."""
+A smaller norm may occur by accident. FLOOR is stored in place of such a norm."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -86,8 +86,8 @@ def weighted(plan: Plan) -> Function:
     n, i = plan.size, count("i")
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of the absolute values before and after the step. A single value may be nearly zero
-    # by accident, and the tolerance computed from it would be too small.
+    # |y_i| is the larger of the absolute values before and after the step. One of the two values may
+    # be nearly zero by accident. A tolerance computed from this value alone would be too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -114,7 +114,8 @@ def weighted(plan: Plan) -> Function:
 def between() -> Function:
     """Return the emitted function that limits a factor to an interval."""
     least, x, most = real("least"), real("x"), real("most")
-    # A comparison with a NaN is false. The test ``x > least`` comes first, so that a NaN gives ``least``.
+    # A comparison with a NaN is false. The test ``x > least`` comes first, so the result for a NaN is
+    # ``least``.
     bounded = select(x > least, select(x < most, x, most), least)
     about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
@@ -123,7 +124,7 @@ def between() -> Function:
 class Controlled:
     """Builds the emitted function ``run_adaptive``, which integrates with step control.
 
-    The attributes of the class are variables of this function.
+    The attributes of the class are variables of the emitted function.
     """
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
@@ -157,8 +158,8 @@ class Controlled:
         return (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # Time and step size are also stored after a failure, so that the caller can continue from the
-            # last good time.
+            # The time and the step size are stored even after a failure. The caller can continue from this
+            # time, the end of the last accepted step.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -170,7 +171,7 @@ class Controlled:
         """Return the statements before the first step."""
         plan = self.plan
         # The arguments are tested for NaNs and infinities only here. In the loop, the step size is multiplied
-        # by results of ``between``, which are finite, even if the error norm is a NaN.
+        # by results of ``between``. These results are finite even if the error norm is a NaN.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, this test is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -219,8 +220,8 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory contains solutions of earlier steps for the initial guess. They are useful only if all
-        # steps have the same size. Here the step size varies, so the memory is cleared.
+        # The memory contains solutions of earlier steps for the initial guess. These solutions are useful
+        # only if all steps have the same size. Here the step size varies, so the memory is cleared.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
@@ -265,8 +266,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step is often shortened to end at ``end``. Therefore its size replaces the step
-                # size ``length`` only if the factor is below 1.
+                # The last step is often shortened to end at ``end``. Therefore, after the
+                # last step, the step size ``length`` changes only if the factor is below 1.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),

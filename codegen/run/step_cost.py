@@ -17,9 +17,9 @@ are:
 - Cubes. The inversion of an n x n matrix by elimination is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
-problems of the gallery. It writes predictions and measurements into ``benchmarks/README.md``. With the option
-``--fit`` it prints the weights that minimise the sum of the squared relative errors of the predictions. No
-weight may be negative.
+problems of the gallery. This program writes predictions and measurements into ``benchmarks/README.md``. With
+the option ``--fit`` it prints the weights that minimise the sum of the squared relative errors of the
+predictions. No weight may be negative.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
     # All function calls have the same weight. Nearly all calls evaluate Stumpff functions of small arguments.
-    # The evaluations are short polynomials, and take about the same time.
+    # For small arguments, each Stumpff function is a short polynomial. Their times are about equal.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
@@ -162,7 +162,7 @@ class StepCost:
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
         """Return the amounts of work in a step for the loop with the index ``k``.
 
-        The loop makes ``sweeps`` sweeps and computes ``matrices`` matrices. Both numbers are averages.
+        On average, the loop makes ``sweeps`` sweeps and computes ``matrices`` matrices in a step.
         """
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)

@@ -78,7 +78,7 @@ CHANGE, SCALE = real("change"), real("scale")
 class Stopping:
     """The stopping rule for one loop.
 
-    ``number`` is the index of this loop among the loops of the kernel, counted from 1.
+    ``number`` is the index of ``loop`` among the loops of the kernel, counted from 1.
     """
 
     plan: Plan
@@ -142,8 +142,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The change in the first sweep measures the error of the initial guess. If the largest of these
-            # errors in a step is too large, the warm start discards the earlier solutions.
+            # The change in the first sweep measures the error of the initial guess. ``first`` is the largest
+            # such change in a step. If ``first`` is too large, the warm start discards the earlier solutions.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
@@ -159,9 +159,9 @@ class Stopping:
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
         # The predicted next change must be at most the rounding error of the largest unknown. A loop without
-        # a warm start has no variable for the rate ``CHANGE / previous``. For this loop, both sides of the
-        # test are multiplied by ``previous``, which avoids a division. In the first sweep ``previous`` is 0,
-        # and the test is true only if the change is zero.
+        # a warm start has no variable for the rate ``CHANGE / previous``. To avoid a division, both sides of
+        # its test are multiplied by ``previous``. In the first sweep ``previous`` is 0, so this test is true
+        # only if the change is zero.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm

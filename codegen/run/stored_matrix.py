@@ -4,9 +4,9 @@ norms.
 A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
 place i of its diagonal. If the diagonal has no entry in row i, the place contains zero.
 
-The entries of a full matrix are formulas in the row i and the column j. The entries are not stored, but some
-subexpressions of the formulas are independent of i and j. The values of these subexpressions are stored. Each
-product with a vector computes the entries from the stored values.
+The entries of a full matrix are formulas in the row i and the column j. The entries are not stored. Only the
+values of the subexpressions that are independent of i and j are stored. Each product with a vector computes
+the entries from the stored values.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Hoisted:
         if node.op == "const":
             # A constant is printed as a number wherever it is used, so it needs no name.
             return node
-        # A subexpression that occurs several times gets the same name each time.
+        # All occurrences of a subexpression get the same name.
         name = self.names.setdefault(node, f"value {len(self.names) + 1}")
         return node.space.sym(name)
 
@@ -81,7 +81,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
         return space.call(str(node.payload), *args)
-    # For each other operation, ``space`` has a method with the same name.
+    # For each other operation, ``space`` has a method with the name of the operation.
     result: Expr = getattr(space, node.op)(*args)
     return result
 
@@ -129,8 +129,8 @@ class StoredMatrix(ABC):
         """Return an entry of a linear combination of constant matrices.
 
         The entry is in row ``row`` and column ``column``. For each constant matrix, ``entries`` contains the
-        index of its coefficient, its entries, and the name of a table. If the entries are numbers, they are
-        read from this table at the index ``place``.
+        index of its coefficient, its entries, and the name of a table. If the entries of a
+        matrix are numbers, its entry is read from its table at the index ``place``.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -150,7 +150,7 @@ class StoredMatrix(ABC):
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                # If several formulas contain the same index, it is converted only once.
+                # An index is converted only once, even if several formulas contain it.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
@@ -170,8 +170,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # The matrices A(t_i) and their linear combinations have the same diagonals, so all arrays have the same
-    # length.
+    # The matrices A(t_i) and their linear combinations have the same diagonals. Therefore the array of a
+    # letter is as long as the array for a time t_i.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -218,8 +218,9 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # If the matrix has a main diagonal, it is the first one. It has an entry in every row, and its
-        # products overwrite the old result. If there is no main diagonal, the result is first set to zero.
+        # If the matrix has a main diagonal, this diagonal comes first. The main diagonal has an entry in each
+        # row, so its products overwrite the old result. Without a main diagonal, the result is first set to
+        # zero.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -238,8 +239,8 @@ class BandedMatrix(StoredMatrix):
 class FullMatrix(StoredMatrix):
     """A matrix whose entries are computed from the row i and the column j and are not stored.
 
-    Some subexpressions in the formulas of the entries are independent of i and j. The array for the time t_i
-    contains the values of these subexpressions.
+    The array for a time t_i contains the values of those subexpressions of the entries that are independent
+    of i and j.
 
     A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains h times
     the coefficients of the letter, followed by the arrays for all times t_i.
@@ -333,11 +334,11 @@ class FullMatrix(StoredMatrix):
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
         """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``.
 
-        The entry is added only if the current row and column lie on this diagonal.
+        If the current row and column do not lie on the diagonal, nothing is added.
         """
-        # The entry in row i and column j is on the diagonal if j = i + ``offset``. Its place on the diagonal
-        # is the smaller of i and j. A difference of unsigned indices could be negative, so the test adds
-        # |offset| to one index.
+        # The entry in row i and column j is on the diagonal if j = i + ``offset``. In the table of the
+        # diagonal, the index of this entry is the smaller of i and j. A difference of unsigned indices could
+        # be negative, so the test adds |offset| to one index.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
