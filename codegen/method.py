@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump`` or ``rkmk(2):rk4``.
 
-The label of a method may contain only the tableau, as in ``cf4``. Some families have no tableau. Their
-labels contain only the family, as in ``taylor(12)``.
+The label of a method may contain only the tableau, as in ``cf4``. Some families have no tableau. The label of
+a method without a tableau contains only the family, as in ``taylor(12)``.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Method:
 
     - ``coefficients`` is the tableau, or None for a family without tableau.
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
-      family without tableau, ``cutoff`` is the number in the label, such as 12 in ``taylor(12)``.
+      family without tableau, ``cutoff`` is the number in the label, for example 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
     - ``step`` is the name of a step y1 = M y0, where the scene defines the matrix M by a formula. A method
       with a named step has no tableau. For all other methods, ``step`` is ''.
@@ -148,13 +148,13 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method, or None if the method needs no embedded method.
 
-        If ``adaptive`` is False, no embedded method is needed. Some families, such as ``taylor``, control
-        the step size without an embedded method. :class:`MethodError` is raised if a needed embedded method
+        If ``adaptive`` is False, no embedded method is needed. Some families control the step size without an
+        embedded method, for example ``taylor``. :class:`MethodError` is raised if a needed embedded method
         does not exist.
 
-        An embedded method has the same stages and other weights. The stages must therefore not depend on the
-        weights. For a method of the family ``rkmk`` without a cut-off, the compiler chooses the brackets in
-        the stages. This choice depends on the weights, so the method has no embedded method.
+        An embedded method has the stages of the method, but other weights. The stages must therefore not
+        depend on the weights. For a method of the family ``rkmk`` without a cut-off, the compiler chooses the
+        brackets in the stages. The chosen brackets depend on the weights, so there is no embedded method.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
@@ -225,7 +225,7 @@ def with_estimate() -> tuple[str, ...]:
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method for a label without a tableau, such as ``taylor(12)``, or None for other texts."""
+    """Return the method if ``text`` is a label without a tableau (``taylor(12)``), and None otherwise."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -335,9 +335,9 @@ def _of_library(name: str) -> Tableau:
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
     """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
 
-    ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
-    family in which the tableau is used. If neither ``family`` nor the text names a family, the family with
-    the highest claimed order is chosen. If a given :class:`Tableau` claims no order, the orders are computed.
+    ``families`` are the families that accept the user's scene. ``family`` is the family in which the tableau
+    is used, for example ``"rkmk(2)"``. If neither ``family`` nor the text names a family, the family with the
+    highest claimed order is chosen. If a given :class:`Tableau` claims no order, the orders are computed.
     """
     if isinstance(given, Method):
         return given
@@ -361,8 +361,9 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
     """Compute the order of the tableau in each suitable family, and yield the orders as claims.
 
-    The orders follow from the order conditions. The family ``rkmk`` has claims for several cut-offs, such as
-    ``rkmk(1)``. If ``family`` is not empty, only claims for this family are computed.
+    The orders follow from the order conditions. For the family ``rkmk``, there is one claim for each of
+    several cut-offs: ``rkmk(1)`` and so on. If ``family`` is not empty, only its claims are computed, for all
+    cut-offs.
     """
     from orderconds.checking import check, claimable_families
 
@@ -403,8 +404,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
     the order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the scene or the tableau does not fit the
-    family. It is also raised if the claims of the tableau do not determine a missing family or cut-off.
-    :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
+    family. MethodError is also raised if a family or a cut-off is missing, and the claims of the tableau do
+    not determine the missing part. :class:`orderconds.errors.UnknownName` is raised for an unknown tableau.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -444,13 +445,14 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             expected=f"no cut-off, or a family with a cut-off: {' or '.join(cutting)}",
         )
     # The sums of the coefficients of a commutator-free tableau over the exponentials define a Runge-Kutta
-    # method. A claim for the family rk is the order of this Runge-Kutta method, and is therefore ignored.
+    # method. A claim for the family rk is about this Runge-Kutta method, not about the commutator-free
+    # method, and is therefore ignored.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # A claim may name a family with a number, such as ``splitting(3)``. The comparison needs no number.
+    # A claim may name a family with a number, for example ``splitting(3)``. The number is removed.
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

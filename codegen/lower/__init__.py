@@ -70,8 +70,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau file states an order for each family in ``error.claimed``. If one of these families
-        # does not accept the scene, the error of _check gives the reason.
+        # The tableau file states an order for each family in ``error.claimed``. If such a family does not
+        # accept the scene, _check raises an error with the reason.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -119,8 +119,8 @@ def lower(scene: Problem, method: Method) -> Program:
 def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the program of one substep of a composition.
 
-    Each substep is a step of the same method, called the base method. The program lists the length and the
-    initial time of each substep.
+    All substeps are steps of one method, called the base method. The program lists the length and the initial
+    time of each substep.
 
     The result is None if a step of ``method`` is not a sequence of substeps.
     """

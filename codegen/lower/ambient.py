@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-In general, the numerical solution leaves the manifold. Its distance from the manifold is at most the error of
-the numerical solution, because the exact solution is on the manifold.
+In general, the numerical solution leaves the manifold. The exact solution is on the manifold, so the
+numerical solution is at most as far from the manifold as from the exact solution.
 """
 
 from __future__ import annotations

@@ -42,10 +42,10 @@ def without_formulas(scene: Problem) -> Objection | None:
     # ``roots`` are the formulas of the field in coordinates.
     if scene.roots:
         return None
-    # The state of a semilinear equation is a function of space. Its field has no formulas in coordinates.
+    # The state of a semilinear equation is a function of space, so the field has no formulas in coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
-    # The families in the hint do not need formulas in coordinates. They compute with whole matrices.
+    # The families in the hint compute with whole matrices, so they need no formulas in coordinates.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas with large matrices as operands",
@@ -74,7 +74,7 @@ class Lowering(ABC):
     If False, the methods solve the differential equation of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The preference for this family if the user names a tableau without a family.
+    """The preference for this family, used if the user names a tableau without a family.
 
     A tableau file states an order of accuracy for one or more families. The compiler chooses the family with
     the highest stated order. If orders are equal, it chooses the family with the largest preference.
@@ -94,7 +94,8 @@ class Lowering(ABC):
     in_coordinates: ClassVar[bool] = False
     """True if the methods solve an equation in R^n for the coordinates of the state.
 
-    These methods can use other coordinates, for example quaternions (:mod:`codegen.scene.classical_forms`).
+    For such a method, the state can have other coordinates, for example quaternions
+    (:mod:`codegen.scene.classical_forms`).
     """
 
     def keeps_manifold(self, scene: Problem) -> bool:
@@ -181,6 +182,6 @@ class Lowering(ABC):
         """Return the order of a method according to :meth:`conditions`."""
         from orderconds.checking import check
 
-        # ``orders`` contains one order for each checked family. Here only one family is checked.
+        # Only one family is checked, so ``orders`` contains one order.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -2,8 +2,8 @@
 
 A step of size h starts at the state y0. Let k_j be the value of the field at stage j. To compute the point of
 a stage, exponentials are applied to y0 or to the point of an earlier stage. The exponents are linear
-combinations h sum_j beta_j k_j, each with its own coefficients beta_j. The new state is computed in the same
-way. If the method is implicit, the stage equations are solved for the k_j.
+combinations h sum_j beta_j k_j, each with its own coefficients beta_j. The new state is computed like the
+point of a stage. If the method is implicit, the stage equations are solved for the k_j.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # ``points`` contains the points of the earlier stages. A stage can begin at one of these points.
+        # A stage can begin at the point of an earlier stage. ``points`` contains the points of these stages.
         points: list[Var] = []
         times: list[Element] = []
         result = []

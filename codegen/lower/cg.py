@@ -24,7 +24,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # The embedded method has the same stages as ``method``. Only the update is different.
+        # The embedded method differs from ``method`` only in the update.
         lower = None if embedded is None else _exponentials(embedded).update
         # A Crouch-Grossman method is a commutator-free method in which each exponent has one term.
         return products(problem, method, _exponentials(method), lower)

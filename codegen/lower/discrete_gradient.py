@@ -1,11 +1,11 @@
-"""Discrete gradient methods on groups, which preserve the energy exactly.
+"""Discrete gradient methods on groups. The methods preserve the energy exactly.
 
 The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*.
 A step of size h from x0 to x1 is x1 = exp(eta).x0 with eta = h xi. The unknown is the element xi of the Lie
 algebra.
 
-Let H be the energy. Its differential gamma(x) at a point x is an element of the dual of the Lie algebra. For
-each element e of the Lie algebra, <gamma(x), e> is the derivative of H(exp(s e).x) with respect to s at
+Let H be the energy. The differential gamma(x) of H at a point x is an element of the dual of the Lie algebra.
+For each element e of the Lie algebra, <gamma(x), e> is the derivative of H(exp(s e).x) with respect to s at
 s = 0. The mean of gamma over the step is approximated by quadrature. The nodes c_i and the weights b_i are
 those of the tableau:
 
@@ -15,10 +15,10 @@ A discrete differential is an element D of the dual with <D, eta> = H(x1) - H(x0
 
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-The last factor eta is read as an element of the dual with the same coordinates, and |eta| is the Euclidean
-norm of these coordinates. The second term corrects the error of the quadrature. With the single node 1/2, D
-is equation (2.31) of the thesis with gamma at the midpoint. With Gauss nodes, g approximates the mean of
-gamma that section 2.6 uses.
+The last factor eta denotes the element of the dual that has the coordinates of eta. The number |eta| is the
+Euclidean norm of the coordinates of eta. The second term corrects the error of the quadrature. With the
+single node 1/2, D is equation (2.31) of the thesis with gamma at the midpoint. With Gauss nodes, g
+approximates the mean of gamma that section 2.6 uses.
 
 The step solves the equation xi = omega(D, .). Here omega is the bivector of the scene at the midpoint
 exp(eta/2).x0 (:mod:`codegen.scene.energy`). Since omega is skew, <D, xi> = 0. Therefore H(x1) = H(x0) for
@@ -70,8 +70,8 @@ class DiscreteGradient(FieldLowering):
         """Return the program of a step.
 
         :class:`codegen.errors.MethodError` is raised if the differential of the energy is zero at a point
-        where the field is not zero. It is also raised if a force at the open boundary of a lattice is not a
-        derivative of the energy.
+        where the field is not zero. The error is also raised if a force at the open boundary of a lattice is
+        not a derivative of the energy.
         """
         # The energy of a single site is not constant, because neighbours exchange energy. Therefore _agrees
         # tests the equation on all sites of a small lattice.
@@ -132,9 +132,9 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _agrees(scene: Problem) -> bool:
-    """Return True if omega(gamma, .) = f at sample points, for the bivector omega and the field f.
+    """Return True if omega(gamma, .) = f at sample points.
 
-    Here gamma is the differential of the energy.
+    Here omega is the bivector, gamma is the differential of the energy, and f is the field.
     """
     # A solution stays on its orbit, so all sample points are on the orbit.
     orbit = orbit_of(scene)

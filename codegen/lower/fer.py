@@ -16,5 +16,5 @@ class FerLowering(MagnusLowering):
     are sums of brackets.
     """
 
-    # A Fer tableau lists exponents, as a Magnus tableau does, so both families have the same lowering.
+    # Fer tableaux and Magnus tableaux list exponents, so the lowering of Magnus methods is used.
     family = "fer"

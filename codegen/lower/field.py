@@ -9,9 +9,9 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for equations y' = f(y).y with f(y) in the Lie algebra, which acts on y.
+    """A family for equations y' = f(y).y, where f(y) is in the Lie algebra and acts on y.
 
-    Hamilton's equations are equations of this form on the group T*G.
+    Hamilton's equations have this form on the group T*G.
     """
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -20,9 +20,9 @@ class FieldLowering(Lowering):
         The field of a sum of Hamiltonians is the sum of their fields. If this sum needs fewer operations than
         the field of the whole Hamiltonian, the equation contains the sum.
         """
-        # The derived scene is stored, because several methods may be used on the same scene.
+        # The derived scene is stored, because several methods may be used on one scene.
         if "field" not in scene.derived:
-            # ``with_field_by_parts`` needs formulas in q and mu. It is called first, because ``as_field``
-            # replaces q and mu by one point y.
+            # ``with_field_by_parts`` needs formulas in q and mu. ``as_field`` replaces q and mu by one point
+            # y, so ``with_field_by_parts`` is called first.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

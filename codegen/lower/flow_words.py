@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, the flow of one summand also advances the time. This summand must not depend on time. During all other
-flows the time is constant.
+time, one summand that does not depend on time is chosen. The flow of the chosen summand also advances the
+time. During all other flows the time is constant.
 """
 
 from __future__ import annotations
@@ -33,8 +33,7 @@ if TYPE_CHECKING:
 Word = list[tuple[Summand, Number]]
 """The flows of a step, in the order in which they act.
 
-Each entry is a pair (summand, x). It denotes the flow of the summand with the duration x h, where h is the
-step size.
+Each pair (summand, x) denotes the flow of the summand with the duration x h, where h is the step size.
 """
 
 
@@ -87,8 +86,8 @@ class Reading:
 class FlowLowering(Lowering):
     """A family of methods that compose exact flows of the parts of a Hamiltonian.
 
-    :meth:`problem` adds the flows of the step to the scene. :meth:`lower` forms the program from this
-    extended scene.
+    :meth:`problem` returns a copy of the scene with the flows of the step. :meth:`lower` forms the program
+    from this copy.
     """
 
     hamiltonian = True
@@ -117,11 +116,11 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return a copy of the scene. Its attribute ``flows`` maps names to the exact flows of a step."""
+        """Return a copy of the scene whose attribute ``flows`` maps names to the exact flows of a step."""
         word = self.read(scene, method).word
         # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
-        # The flows are sorted by name, so that the order of emitted functions does not depend on the step.
+        # The flows are sorted by name. The order of emitted functions then does not depend on the step.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -242,8 +241,8 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """
     word: Word = []
     for beta, alpha in both:
-        # The last flow of Phi* and the first flow of Phi belong to the same summand. The function _joined
-        # adds their durations.
+        # Phi* ends with a flow of the last summand, and Phi begins with a flow of the last summand. The
+        # function _joined adds the durations of these two flows.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -251,7 +250,7 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word``. Neighbouring flows of the same summand are joined into one flow.
+    """Yield the flows of ``word``, after neighbouring flows of one summand have been joined.
 
     Flows of duration zero are left out.
     """

@@ -72,7 +72,7 @@ class LieElements:
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 
     def _value(self, term: Term) -> Scaled:
-        # A term may occur in several brackets. Its value is computed only once.
+        # A term may occur in several brackets. The value of each term is computed only once.
         if term not in self.known:
             self.known[term] = self._new(term)
         return self.known[term]
@@ -91,9 +91,9 @@ class LieElements:
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append a product of an odd number of elements in symmetric order, such as x y z y x.
+        """Append a product of an odd number of elements in symmetric order, for example x y z y x.
 
-        If the group preserves a bilinear form, its Lie algebra contains these products. An example is SO(n).
+        If the group preserves a bilinear form, as SO(n) does, the Lie algebra contains these products.
         """
         factors = term.factors
         # Other products, such as x y, are in general not elements of the Lie algebra.

@@ -77,8 +77,8 @@ class LinearLowering(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        The program evaluates A at the nodes, and computes the exponents X_1, X_2, ... from these values. The
-        method :meth:`move` then applies tau(X_1), tau(X_2), ... to the point, in this order.
+        The program evaluates A at the nodes. From these values of A it computes the exponents X_1, X_2, ...
+        The method :meth:`move` then applies tau(X_1), tau(X_2), ... to the point, in this order.
         """
         if method.step:
             return self._stated(problem, method)
@@ -101,7 +101,7 @@ class LinearLowering(FieldLowering):
         # The first exponent acts first, so its exponential is the rightmost factor of the product.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
-        # ``Stages.program`` would add stage equations. This method has none.
+        # There are no stage equations, so ``Stages.program`` is not called.
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
         step = verify(Program(method.label, inputs, stages.builder.take(), (("y", point),)))
         return _with_momentum(problem, step)
@@ -115,7 +115,7 @@ class LinearLowering(FieldLowering):
                 where=problem.name,
                 expected="a step matrix in the scene's group, for example exp(X) with X in the Lie algebra",
             )
-        # A step is one multiplication of y by a matrix. The scene gives a formula for this matrix.
+        # A step multiplies y by a matrix. The scene gives a formula for the matrix.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
         body = (Assign((end,), StatedStep(method.step), (y, t)),)
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
@@ -123,8 +123,8 @@ class LinearLowering(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of the method.
 
-        If the scene itself defines the step of the method, the scene also gives the order of this step.
-        Otherwise the order is computed from order conditions.
+        If the scene itself defines the step of the method, the scene also states the order. Otherwise the
+        order is computed from order conditions.
         """
         if not method.step:
             return super().order(method, scene)

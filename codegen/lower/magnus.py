@@ -18,5 +18,5 @@ class MagnusLowering(LinearLowering):
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
         """Append the operations for exp(x).y to the program, and return the result."""
-        # The exponential is a group element, which then acts on the point.
+        # ``exp`` gives a group element g, and ``act`` computes g.y.
         return stages.builder.act("Y", stages.builder.exp("g", x), y)

@@ -69,8 +69,8 @@ class PartitionedLowering(Lowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the order conditions.
 
-        For a symplectic pair of tableaux and H = T(p) + V(q, t), these are the conditions of the family
-        ``sprk_separable``. They are fewer than the conditions of ``prk``.
+        For a symplectic pair of tableaux and H = T(p) + V(q, t), the result is the family ``sprk_separable``.
+        This family has fewer conditions than ``prk``.
         """
         from orderconds import families
 
@@ -133,7 +133,7 @@ def _pair(method: Method) -> PartitionedRungeKutta:
     """
     tableau = method.tableau.read_as(("prk", "rk"))
     if isinstance(tableau, RungeKutta):
-        # A Runge-Kutta method uses the same tableau for positions and momenta.
+        # A Runge-Kutta method uses one tableau for both positions and momenta.
         return PartitionedRungeKutta(tableau.A, tableau.b, tableau.A, tableau.b)
     if not isinstance(tableau, PartitionedRungeKutta):
         raise MethodError(
@@ -154,7 +154,7 @@ def separable(scene: Problem) -> bool:
 
 def reads_position(scene: Problem) -> bool:
     """Return True if the velocity xi depends on positions."""
-    # On a lattice, the positions of neighbours are symbols of the scene as well.
+    # On a lattice, the velocity may also depend on the positions of neighbours.
     around = () if scene.sites is None else scene.sites.names
     return bool(_read(scene, False) & {*scene.state[0].symbols, *around})
 

@@ -13,7 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
-    # These modules import the package codegen.lower, so imports at the top of the file would be circular.
+    # The modules below import the package codegen.lower. Imports at the top of this file would be circular.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering

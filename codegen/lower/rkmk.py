@@ -9,7 +9,8 @@ Here a_ij and b_i are the coefficients of the tableau, and dexp^{-1}_{(r),u} is 
 to the terms with r brackets. The unknowns are the v_i.
 
 If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. Such a method has the order of the tableau, and a cut-off has no effect.
+replaces the truncated dexp^{-1}. The method with tau has the order of the tableau, and a cut-off has no
+effect.
 """
 
 from __future__ import annotations
@@ -108,7 +109,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... With the cut-off 0, only the term
-        # k remains. This limits the order to two on a group that is not abelian.
+        # k remains. On a group that is not abelian, the order is then at most two.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)
@@ -151,8 +152,9 @@ def _program(
 ) -> Program:
     """Return the program of a step with the coordinate map ``element``, for example exp.
 
-    The function ``inverse`` appends a statement with the inverse differential of this map. If ``extension``
-    is given, the program computes the coefficients of the continuous extension instead of the new state.
+    The function ``inverse`` appends a statement with the inverse differential of ``element``. If
+    ``extension`` is given, the program computes the coefficients of the continuous extension instead of the
+    new state.
     """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
@@ -163,7 +165,7 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # This is a Runge-Kutta stage of the equation u' = dexp^{-1}_u f(exp(u).y) in the Lie algebra.
+            # Each pass through the loop computes one Runge-Kutta stage of u' = dexp^{-1}_u f(exp(u).y).
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
@@ -176,13 +178,13 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # The extension gives the state at the time t + theta h. Its weights are polynomials b_i(theta). Each
-        # row contains the coefficients of one power theta^p.
+        # The extension gives the state at the time t + theta h. The weights of the extension are polynomials
+        # b_i(theta). Each row contains the coefficients of one power theta^p.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution uses the same stage values v_i with other weights.
+        # The embedded solution also uses the stage values v_i, but with other weights.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

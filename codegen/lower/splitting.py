@@ -133,8 +133,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     # Let A be the part whose flow acts first, and B the other part. The splitting applies the flows A_{x1},
     # B_{x2}, A_{x3}, ... in this order. Phi* applies first A and then B. Phi applies first B and then A. The
     # composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the splitting if x1 = beta_1,
-    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations give beta_1, alpha_1, beta_2,
-    # ... one after the other.
+    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. The equations, in this order, give beta_1,
+    # alpha_1, beta_2, ...
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
@@ -154,5 +154,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The last value of ``carried`` is zero, because both parts have the same total duration.
+    # The total duration of A is equal to that of B, so the last value of ``carried`` is zero.
     return composed

@@ -79,7 +79,7 @@ class Stages:
         The functions ``starts``, ``images`` and ``update`` append statements and return variables. The result
         of ``update`` is a dictionary of the outputs. The key of a new state is the name of the old state.
         """
-        # The functions append to one builder. Their statements are in the order of the calls.
+        # All functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())

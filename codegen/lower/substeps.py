@@ -7,7 +7,7 @@ Suppose that the stages of a tableau form consecutive groups with two properties
 
 Let gamma_k be the sum of the b_j of group k. Then the method is a composition, and group k is a substep of
 length gamma_k h (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The coefficients of group k, divided by gamma_k,
-are the tableau of this substep. If all substeps have the same tableau, one program computes all substeps.
+are the tableau of the substep. If all substeps have the same tableau, one program computes all substeps.
 
 Only implicit methods are split into substeps. The substeps of an explicit method have common subexpressions.
 A separate program for one substep would compute these subexpressions again in every substep.
@@ -62,7 +62,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method belong to the whole tableau. One substep has none of them.
+    # The proof, the file and the embedded method belong to the whole tableau, not to the tableau of a
+    # substep.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -108,7 +109,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             for g, total in zip(groups, sums, strict=True)
         ]
         # ``scaled`` contains one tableau for each group k: the coefficients of the group, divided by gamma_k.
-        # Substep k is a step of this tableau with the step size gamma_k h.
+        # Substep k is a step of size gamma_k h with the tableau of group k.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]

@@ -66,7 +66,7 @@ class Taylor(Lowering):
         return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step. It evaluates the Taylor polynomial and projects the value."""
+        """Return the program of a step. A step evaluates the Taylor polynomial and projects the value."""
         degree = self.conditions(method).degree_of_step()
         # ``y`` is the old state, and ``moved`` is the value of the Taylor polynomial. ``end`` is the
         # projection of ``moved`` onto the manifold.
@@ -98,7 +98,7 @@ class Taylor(Lowering):
         return degree
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method, which is the degree of its Taylor polynomial."""
+        """Return the order of the method: the degree of the Taylor polynomial."""
         from orderconds.checking import FamilyOrder
 
         family = self.conditions(method)

@@ -1,4 +1,4 @@
-"""Variational methods for Hamiltonian scenes on T*G. Their steps are symplectic."""
+"""Variational methods for Hamiltonian scenes on T*G. The steps of these methods are symplectic."""
 
 from __future__ import annotations
 

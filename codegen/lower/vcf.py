@@ -19,8 +19,8 @@ equations for the discrete Lagrangian, transported to q0, are
 
 The subscripts of Ad* contain e^{J-1} and E_j^{J-1}, the products of the factors before factor J. Factor J
 does not occur there, because dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for each x in the Lie algebra. In M_i, the
-program expands mubar into one term for mu0 and one term for each nu_j. Some of these terms may cancel terms
-of the double sum. Later passes of the compiler remove terms that cancel.
+program expands mubar into one term for mu0 and one term for each nu_j. Some terms of this expansion may
+cancel terms of the double sum. Later passes of the compiler remove terms that cancel.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def _program(scene: Problem, method: Method) -> Program:
                 # The coefficient row[i] is beta_J^i.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # mubar is expanded into separate terms. Later passes can then cancel some of these terms.
+                # mubar is expanded, because some of its terms may cancel terms of the double sum.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
         # The points Q_j depend on xi_i. The equation for M_i therefore contains the double sum.
         for j, stage in enumerate(E):
@@ -128,7 +128,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # Products of different stages may begin with the same factors. A later pass removes the repetitions.
+        # The products E_i of two stages may begin with equal factors. A later pass removes the repetitions.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []

@@ -50,8 +50,8 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # Both dictionaries have the stage index i as key. ``forces`` contains n_i. ``slopes`` contains
-        # P*_(r)(X_i, xi_i) m_i, defined in the docstring of this module.
+        # The keys of both dictionaries are stage indices i. ``forces`` contains n_i, and ``slopes`` contains
+        # P*_(r)(X_i, xi_i) m_i. The docstring of this module defines P*_(r).
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
@@ -82,11 +82,11 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # The series for v_i and the series for M_i have the same cut-off. Otherwise v_i and M_i would not
-            # follow from one discrete Lagrangian, and the step would not be symplectic.
+            # The series for v_i and M_i have one common cut-off r. Otherwise v_i and M_i would not follow
+            # from one discrete Lagrangian, and the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i. Hence lambda_i contains the slope, which is the
-            # dual of the derivative with respect to X_i, applied to m_i.
+            # For r > 0, dexp^{-1}_{(r),X_i} depends on X_i. Let P* be the dual of the derivative of
+            # dexp^{-1}_{(r),X_i} xi_i with respect to X_i. Then lambda_i contains the slope P* m_i.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # A small change d of X_i moves Q_i = exp(X_i) q0 by dexp_{X_i} d. Hence the force n_i occurs in

@@ -94,7 +94,7 @@ class _Step(ExpandedStep):
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append the vector R*_(r)(x, v) M, defined in the docstring of this module.
+        """Append the vector R*_(r)(x, v) M. The docstring of this module defines R*_(r).
 
         ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. With the cut-off r
         and z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!, the result is sum_{0<=i<r} ad*_{z_i} (ad*_x)^i M.
@@ -114,8 +114,8 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # The equation for M_i contains the series dexp*_{(r),X_i} M_i. Its term k = 0 is M_i. ``corrections``
-        # contains all other terms, multiplied by -1.
+        # The equation for M_i contains the series dexp*_{(r),X_i} M_i. The term k = 0 of the series is M_i.
+        # ``corrections`` contains all other terms, multiplied by -1.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # The exponent X_j contains the term h a_ji v_i. The force and the slope of stage j therefore have
@@ -140,7 +140,7 @@ def _rest(powers: list[Var]) -> Terms:
 
     ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The term k = 0 is omitted, because the caller solves its equation for this term.
+    # The term k = 0 is omitted. It is the value that the caller computes.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

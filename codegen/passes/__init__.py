@@ -1,10 +1,10 @@
 """Passes over the program of a step. A pass is a pure function from a program to a simpler program.
 
-A pass is exact if, in exact arithmetic, both programs have the same results.
+A pass is exact if, in exact arithmetic, the new program has the results of the old program.
 
-The function :func:`optimise` runs all passes in a fixed order. After every pass it checks the new program:
-types must match, and each variable is assigned once. It also compares the results of the new program with the
-results of the program before the first pass.
+The function :func:`optimise` runs all passes in a fixed order. After every pass, :func:`optimise` checks the
+new program: types must match, and each variable is assigned once. The results of the new program are compared
+with the results of the program before the first pass.
 """
 
 from __future__ import annotations
@@ -63,11 +63,10 @@ class Optimiser:
 
     If the step repeats a shorter method in several substeps (:mod:`codegen.lower.substeps`), ``composed`` is
     another program for the step. The statements of ``composed`` compute one substep. The attribute
-    ``substeps`` of ``composed`` lists all substeps. The optimiser tests that ``composed`` has the same
-    results as ``program``. Then the passes rewrite ``composed``.
+    ``substeps`` of ``composed`` lists all substeps. The optimiser tests that ``composed`` and ``program``
+    have the same results. Then the passes rewrite ``composed``.
 
-    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. This error means that the
-    compiler has a bug.
+    If a pass changes the results, the compiler has a bug, and :class:`codegen.ir.verify.IllFormed` is raised.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -127,16 +126,16 @@ def plain_passes(scene: Problem) -> list[Pass]:
     joined = "two flows of one term of H are joined if they commute with all flows between them"
     vanish = "the group is abelian" if abelian_group else "dexpinv is the identity at truncation order 0"
     return [
-        # This pass comes first: it replaces brackets by zeros, and the next pass removes zeros from sums.
+        # The first pass replaces brackets by zeros. Then the pass for zeros removes these zeros from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass must follow value numbering, which replaces equal right-hand sides by a single variable.
+        # Value numbering has replaced equal right-hand sides by one variable. This pass relies on that.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # The previous pass removes flows. This pass removes the stage times of these flows.
+        # The previous pass removes flows. This pass removes the stage times of the removed flows.
         Pass("unused values", UNUSED, dead.run),
         # Terms that cancel would look like dependencies. Therefore the pass for zeros precedes this pass.
         Pass("blocks", "stages are solved one after the other", blocks.run),
@@ -147,11 +146,11 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # read L(x) and L(y), the next pass replaces L(x) + L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("factored maps in several sums", FACTORED, shared_sums.run),
-        # Factoring produces sums of a single term, which this pass removes.
+        # Factoring produces sums of a single term. This pass removes these sums.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass counts the operations that read exp(x). Equal exponentials must be merged before, by value
-        # numbering.
+        # This pass counts the operations that read exp(x). Therefore value numbering first merges equal
+        # exponentials.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can remove dependencies. If a value in a block no longer depends on the unknowns of the
@@ -172,7 +171,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps. This pass removes a map and its inverse if one
-        # follows the other.
+        # is applied directly after the other.
         Pass("inverse maps", inverse, opposites.run),
         # The Legendre transform computes the force of a stage from the velocity. Therefore this pass can
         # remove the force from the unknowns.
@@ -187,8 +186,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # first replaces products that read exp(x).
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # A residual is the difference of two formulas for the same momentum. The choice of this momentum
-        # depends on the functions of ad that the previous pass creates.
+        # A residual is the difference of two formulas for one momentum. The previous pass creates functions
+        # of ad. The choice of the momentum depends on these functions.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps. Therefore the next passes are repeated.
         Pass("inverse maps", inverse, opposites.run),
@@ -196,7 +195,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients c into the arguments of maps L. This pass replaces L(c x) by c L(x).
+        # Factoring moves coefficients c into the arguments of maps L. This pass moves c out again.
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",
