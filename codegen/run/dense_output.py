@@ -32,7 +32,8 @@ class DenseOutput:
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
         # The kernel ``extension.moved`` applies exp(x) to a state, where x is an element of the Lie algebra.
-        # Its inputs are the state and the coordinates of x. ``width`` is the number of coordinates of x.
+        # The inputs of this kernel are the state and the coordinates of x. ``width`` is the number of these
+        # coordinates.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
@@ -72,7 +73,8 @@ class DenseOutput:
         # At theta = 0 all coordinates are zero, so their polynomials in theta have no constant term. Horner's
         # rule computes a polynomial divided by theta. The result is then multiplied by theta.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The array ``pair`` is the argument of MOVED. It contains the state and the coordinates at theta.
+        # The array ``pair`` is the argument of MOVED. ``pair`` contains the argument ``state`` and the
+        # coordinates at theta.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),

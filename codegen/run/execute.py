@@ -50,7 +50,7 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action executes a statement. It returns True if the statement ended the function."""
+"""An action executes a statement. The action returns True if the statement ended the function."""
 
 RESULT = "result of the function"
 """The key of the result in an environment. The key contains spaces, so it differs from every identifier."""
@@ -88,7 +88,7 @@ class Machine:
             # The numbers in the tables are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # Here the identifiers are only keys of a dictionary, so Python's keywords are allowed.
+        # Here the identifiers are only keys of dictionaries, so an identifier may be a Python keyword.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -113,7 +113,7 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return a zero number or a zero ``record``. If ``shape`` is not empty, return an array of these."""
+        """Return the number zero, a zero ``record``, or (if ``shape`` is not empty) an array of zeros."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
@@ -148,14 +148,14 @@ class Machine:
         changed = written(self.unit, function)
         for parameter, argument in zip(function.parameters, arguments, strict=True):
             if parameter.text in changed:
-                # The list is changed in place, because the caller reads the same list.
+                # The caller reads this list after the call, so the list is changed in place.
                 argument[:] = [math.nan] * len(argument)
         return math.nan
 
 
 def is_number(x: Any) -> bool:
     """Return True if the number ``x`` is neither infinite nor NaN."""
-    # For an infinity or a NaN, ``x - x`` is NaN. This test works in every domain.
+    # In every domain, ``x - x`` is NaN if x is an infinity or a NaN.
     return bool(x - x == 0)
 
 
@@ -250,7 +250,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that assigns a value, for example to a variable or to an entry of an array."""
         if value.op == "fresh":
-            # Several functions may refer to the same record, so its fields are cleared in place.
+            # Other functions may refer to this record, so the fields of the record are cleared in place.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -384,7 +384,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so these conversions change nothing.
+            # All numbers of a domain have the same precision, so a conversion changes nothing.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -473,7 +473,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix (a flat list) by its inverse and return 1. Return 0 if the matrix is singular."""
     import numpy
 
-    # The operations have the same order as in the emitted code, so the results are equal for doubles.
+    # For doubles, the result equals that of the emitted code, because the operations have the same order.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []

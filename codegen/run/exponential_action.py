@@ -27,14 +27,14 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
     # If the norm is at most ``bounds[k]``, a Taylor polynomial of degree ``sizes[k]`` is accurate enough. The
-    # emitted code chooses the lowest sufficient degree. Its conditional expressions are nested. The outermost
+    # emitted code chooses the lowest sufficient degree by nested conditional expressions. The outermost
     # expression tests the lowest degree, so the loop constructs this expression at the end.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix, m the degree, and v the vector ``result``. The Taylor polynomial of exp(b) v
     # is v + b p/m!, where p is the sum of (m!/j!) b^(j - 1) v over j = 1, ..., m. Horner's rule computes p.
-    # Its coefficients m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
+    # The coefficients m!/j! are exact. Rounding errors of coefficients 1/j! would accumulate over many steps.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),

@@ -1,4 +1,4 @@
-"""Arithmetic in doubles with the same roundings as emitted code.
+"""Arithmetic in doubles with the same roundings as in emitted code.
 
 Trial steps (:mod:`codegen.run.trial`) are executed in this arithmetic. The function
 :func:`codegen.ir.domain.stumpff` has other rounding errors. Other rounding errors could change the number of
@@ -20,7 +20,8 @@ class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
     ``chain`` is the largest number of nested Stumpff functions in a step (:mod:`codegen.ir.angle_depth`).
-    This number determines the largest allowed argument (:func:`codegen.snippets.stumpff.limit`).
+    ``chain`` determines the largest argument that these functions accept
+    (:func:`codegen.snippets.stumpff.limit`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -30,7 +31,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The emitted functions compare z with the same thresholds, so they have the same rounding errors.
+        # The thresholds are those of the emitted functions. Therefore the rounding errors are the same.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -139,8 +140,8 @@ def _short(k: int, z: float, name: str) -> float:
     """Return the Stumpff function c_k(z) for small z. ``name`` is the polynomial: "tiny" or "small"."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # The additions have the same order as in the emitted code (template ``stumpff_small``), because the order
-    # determines the roundings.
+    # The order of the additions determines the roundings. Therefore the order is that of the emitted code
+    # (template ``stumpff_small``).
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair

@@ -64,8 +64,8 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # This array receives the results of an outlined function. In the kernel, result k has the name
-            # ``name.k``.
+            # The array ``name`` receives the results of an outlined function. In the kernel, result k has the
+            # name ``name.k``.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }

@@ -2,8 +2,8 @@
 
 Step control chooses the step sizes between two bounds, but the last step may be shorter. Without step
 control, all steps except the last have the same size. A run ends early if the largest number of steps is
-reached, if an event ends it, or if a step fails. The caller receives the last accepted state and its time,
-and can continue the run from there. A run with step control also returns the size of the next step.
+reached, if an event ends the run, or if a step fails. The caller receives the last accepted state and its
+time, and can continue the run from there. A run with step control also returns the size of the next step.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ INTEGRATE = "integrate"
 """The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
-"""One step covers the rest of the interval if the rest is at most (1 + NEARLY) times the step size.
+"""If the rest of the run is at most (1 + NEARLY) times the step size, one step covers the rest.
 
 Without this tolerance, rounding errors in the times could leave a tiny last step.
 """
@@ -169,8 +169,8 @@ class _Constant:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # ``run`` is called for one step. Its outputs for the trajectory and for the number of completed steps
-        # are omitted.
+        # ``run`` is called for one step, without outputs for the trajectory and for the number of completed
+        # steps.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))

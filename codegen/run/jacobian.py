@@ -143,8 +143,8 @@ class _Jacobian:
         # A substep stores data of its equations in a memory, so each substep has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # These substeps only provide the states for ``vary``. The caller's statistics do not count these
-        # substeps.
+        # The substep only computes the state for the next call of ``vary``. The caller's statistics do not
+        # count the substep.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []

@@ -1,13 +1,13 @@
 """The run representation: the code around a kernel as a small imperative program.
 
 The code around a kernel contains, for example, stopping rules and step control. Printers translate the
-representation of this code to C and Python. The module :mod:`codegen.run.execute` executes the
-representation, for example with doubles or with exact numbers.
+representation to C and Python. The module :mod:`codegen.run.execute` executes the representation, for example
+with doubles or with exact numbers.
 
 Because of the following rules, the representation can also be translated to array languages. Array languages
 express a loop by ``while_loop`` and a branch by ``select``.
 
-- A loop ends only at its test, which may read a status or flag. There is no ``break`` statement.
+- A loop ends only at its test. The test may read a status or flag. There is no ``break`` statement.
 - A :class:`Return` is the last statement of a function or the only statement of an :class:`If`. An If with a
   Return is not inside a loop or another If. Therefore an array language may execute the rest of the function
   in every case, and discard the results after a Return.
@@ -146,12 +146,12 @@ class Function:
     """A function of the emitted code.
 
     - ``about`` is the comment above the function in the emitted code.
-    - ``returns`` is the kind of the result. It is None if the function returns nothing.
+    - ``returns`` is the kind of the result, or None if the function returns nothing.
     - ``public`` is True if the function can be called from outside the unit.
     - ``often`` is True if the function is called in each step and should be inlined.
-    - ``near`` is True if the function calls variants of the sine, the cosine and the Stumpff functions that
-      are valid only near zero. These variants have no branches. For larger arguments, they return NaN
-      (:mod:`codegen.run.batch`).
+    - ``near`` is True if the function calls fast variants of the sine, the cosine and the Stumpff functions.
+      The variants have no branches, and are valid only near zero. For larger arguments, the variants return
+      NaN (:mod:`codegen.run.batch`).
     """
 
     name: str
@@ -197,7 +197,7 @@ class Unit:
     """All emitted code of one kernel: its records, tables and functions.
 
     Each function comes after the functions that it calls. ``scalars`` contains the names of t, h and the
-    parameters of the kernel. The identifiers of these names do not depend on other names in the kernel.
+    parameters of the kernel. The identifiers for ``scalars`` do not depend on other names in the kernel.
     """
 
     scalars: tuple[str, ...]
@@ -273,7 +273,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the variable that contains ``target``, for example ``memory`` for ``memory.values[3]``."""
-    # The term of an array entry or record field has arguments. Its first argument is the array or record.
+    # The term of an array entry or record field has arguments. The first argument is the array or record.
     while target.args:
         target = target.args[0]
     return target

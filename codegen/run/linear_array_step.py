@@ -102,8 +102,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # An element with commutators gets its own function, which multiplies a vector by the element. An
-        # element without commutators is a letter. For letters, the function PRODUCT is used.
+        # For each element with commutators, an own function multiplies a vector by the element. An element
+        # without commutators is a letter. For letters, the function PRODUCT is used.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -123,13 +123,13 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL, which
-            # has the letter as an argument. ``Element(0)`` is a placeholder for this letter.
+            # An exponent without commutators is a letter. All letters share the function EXPONENTIAL. The
+            # letter is an argument of this function, and ``Element(0)`` is a placeholder for the letter.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # If two objects are equal elements, the same function is listed twice. ``_unique`` removes the
-        # repetition.
+        # For two equal elements in different objects, the same function is listed twice. ``_unique`` removes
+        # the repetition.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -190,7 +190,7 @@ class _Step:
         The matrices X and Y form the commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # The argument of ``letters`` must be an element. Here it is 1 times the commutator.
+        # The argument of ``letters`` must be an element. Here the element is 1 times the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -234,7 +234,7 @@ class _Step:
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
         # Horner's rule computes the vector p, the sum of (m!/j!) b^(j - 1) y over j = 1, ..., m. Here m is
         # the degree, y is the state, and b is X times ``scale``. The integers m!/j! are exact. Rounded
-        # coefficients 1/j! would cause a systematic error, because it would be the same in all steps.
+        # coefficients 1/j! would cause the same error in all steps, and these errors would accumulate.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -346,7 +346,7 @@ class _Step:
         ``x`` is the time t or the step size h.
         """
         # For a banded matrix, the function computes h A(t). For a full matrix, the function computes
-        # subexpressions of A(t), which do not contain h.
+        # subexpressions of A(t). These subexpressions do not contain h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
@@ -367,7 +367,7 @@ def _constant(c: Number) -> Term:
 
 
 def _unique(functions: Sequence[Function]) -> Iterator[Function]:
-    """Yield the functions in order. Of several functions with the same name, only the first is yielded."""
+    """Yield the functions in order. If several functions have the same name, yield only the first."""
     seen: set[str] = set()
     for function in functions:
         if function.name not in seen:

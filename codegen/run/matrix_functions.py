@@ -61,7 +61,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
     """Return the matrix exponentials and other vector functions that ``functions`` call."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
-    # The names are sorted, so that the emitted functions always have the same order.
+    # Sorting the names makes the order of the emitted functions reproducible.
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
 
@@ -87,7 +87,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of matrices of equal size use the same norm function. It is listed once.
+        # Exponentials of matrices of equal size use the same norm function. This function is listed once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
@@ -129,7 +129,7 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of one matrix in a jet. The index of this matrix is ``part``.
+        """Return an entry of the matrix with the index ``part`` in a jet.
 
         Index 0 selects the matrix itself. All other indices select derivatives.
         """
@@ -178,8 +178,8 @@ class _Exponential:
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # For small matrices, the entry is computed without a loop. The order of the terms is the same as in
-        # the loop, so the rounding errors are the same.
+        # For small matrices, the entry is computed without a loop. The loop below adds the terms in the same
+        # order, so the rounding errors are the same.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
         # The sums for different matrices of the jet need different variables.
@@ -236,13 +236,13 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of exp at the jet ``powers[0]``.
 
-        The statements choose the degree 4, 8, 12 or 16 from ``norm``, the norm of the matrix. They choose the
-        lowest degree whose truncation error is smaller than the rounding errors.
+        The possible degrees are 4, 8, 12 and 16. From ``norm``, the norm of the matrix, the statements choose
+        the lowest degree whose truncation error is smaller than the rounding errors.
         """
-        # This is the method of Paterson and Stockmeyer for a polynomial in b = ``powers[0]``. Its degree is
-        # 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products. The terms
-        # below degree 4 g form g groups of four. Horner's rule in b^4 combines these groups with g - 1 more
-        # products.
+        # The method of Paterson and Stockmeyer evaluates a polynomial in b = ``powers[0]``. The degree of the
+        # polynomial is 4 g, where g is 1, 2, 3 or 4. The powers b^2, b^3 and b^4 need three matrix products.
+        # The terms below degree 4 g form g groups of four. Horner's rule in b^4 combines these groups with
+        # g - 1 more products.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         # At norms up to ``first``, ``second`` or ``third``, the degree 4, 8 or 12 is accurate enough.
@@ -254,8 +254,8 @@ class _Exponential:
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
-            # The sum begins with the terms of high degree. These terms are usually small, so the rounding
-            # errors stay small.
+            # Terms of high degree are usually small. The sum begins with them, so the rounding errors stay
+            # small.
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
@@ -310,15 +310,15 @@ class _Exponential:
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
         """Return the statements that square the jet ``result``. The number of squarings is ``squarings``.
 
-        ``growth`` bounds the norm of the matrix in ``result``. The statements also bound the error of this
-        matrix. If its relative error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
+        ``growth`` bounds the norm of the matrix in ``result``. The statements also bound the error of the
+        matrix. If the relative error may exceed 2^-LEAST_DIGITS, all entries of ``result`` become NaN.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # The spectral norm of the matrix is at most its Frobenius norm, and at most ``growth``. The
-            # smaller of these two bounds is used.
+            # Two numbers bound the spectral norm of the matrix: the Frobenius norm and ``growth``. The
+            # smaller bound is used.
             Assign(bound, select(bound < growth, bound, growth)),
             # The norm of the n x n matrix is at most r = ``bound``, and its error is at most e = ``error``.
             # With the unit roundoff u, the error of the computed square is at most about
@@ -371,7 +371,8 @@ def _inverse(function: MatrixInverse) -> Function:
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
     # The inverse overwrites the matrix. Step k of the elimination turns column k into a column of the unit
-    # matrix. This column is not stored. Its place stores a column of the inverse that later steps complete.
+    # matrix. Instead of this unit column, column k then stores an incomplete column of the inverse. Later
+    # steps complete the stored column.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

@@ -82,8 +82,8 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # The momentum is tested before the state is changed, so that a failure leaves the caller's state
-        # unchanged.
+        # A failure must not change the caller's state. Therefore the momentum is tested before the state is
+        # changed.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

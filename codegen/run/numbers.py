@@ -16,8 +16,8 @@ def numbers_held(unit: Unit) -> int:
     """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # A public function may be called by a private function. It then runs during another call, so it is
-    # counted with the private functions.
+    # A private function may call a public function. The public function then runs during another call, so
+    # the public function is counted with the private functions.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
@@ -35,7 +35,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Two arrays with the same name may have different addresses, for example in two loops. Therefore
+            # Two arrays with the same name, for example in two loops, may have different addresses. Therefore
             # each array is counted.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue

@@ -9,8 +9,8 @@ sign of an event function between two consecutive times. If a function changes i
 event is found. If an event function is exactly zero at the beginning of a run, this zero is no event.
 
 The time of an event is enclosed in an interval that is a few rounding errors long. The Illinois variant of
-the secant method is used, together with bisection. The event state is the state at the end of this interval,
-where the sign has changed. A run that continues from this state does not find the same event again.
+the secant method is used, together with bisection. The event state is the state at the end of this interval.
+There the sign has changed, so a run that continues from the event state does not find the event again.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
     *("inside", "in_order", "crossed", "locate", "find_events"),
     "observe",
 )
-"""The names of the private functions of this module."""
+"""The names of the private emitted functions that this module builds."""
 
 PARTS = 4
 """The number of equal parts of a step. Event functions are evaluated at the end of each part."""
@@ -68,9 +68,9 @@ at most 2 CLOSE u max(|t|, |t'|, |t' - t|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
-"""Values of the array ``stops``, which has one entry for each event function. The run ends if the function
-changes from negative to positive (RISING), from positive to negative (FALLING), or in either direction
-(RISING + FALLING)."""
+"""Values of the array ``stops``. The array has one entry for each event function. The run ends if the
+function changes from negative to positive (RISING), from positive to negative (FALLING), or in either
+direction (RISING + FALLING)."""
 
 
 class Observation:
@@ -103,7 +103,7 @@ class Observation:
 
     @property
     def length(self) -> Term:
-        """The step size. It is negative in a run backwards in time."""
+        """The step size, negative in a run backwards in time."""
         return self.following - self.now
 
     @property
@@ -237,8 +237,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # An event function may be zero at the beginning of a run or at an event. Its sign is then stored as
-        # zero, and its next nonzero value does not count as an event.
+        # If an event function is zero at the beginning of a run or at an event, the stored sign is zero. Then
+        # the next nonzero value of this function does not count as an event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -305,8 +305,8 @@ class Observation:
         """Return the statements that choose ``middle``, the fraction of the step for the next evaluation."""
         i, estimate = count("i"), real("estimate")
         # If a function changes its sign in the interval, the secant through its weighted values at both ends
-        # has a zero there. The earliest of these zeros is chosen. In every third iteration, the midpoint is
-        # chosen instead.
+        # has a zero in the interval. The earliest zero of the secants of all functions is chosen. In every
+        # third iteration, the midpoint is chosen instead.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1.
         candidate = (
@@ -318,8 +318,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # ``middle`` keeps at least the distance ``width`` from both ends. An event nearer to one end lies
-            # between ``middle`` and this end. This interval is short enough to end the search.
+            # ``middle`` keeps at least the distance ``width`` from both ends. If the distance is ``width``,
+            # the interval between ``middle`` and the near end is short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -329,8 +329,8 @@ class Observation:
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
         """Return two groups of statements. The first group moves the upper end of the searched interval
         to ``middle``. The second group moves the lower end to ``middle``."""
-        # If the same end moves twice in a row, the Illinois method halves the weight of the values at the
-        # other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
+        # If one end of the interval moves twice in a row, the Illinois method halves the weight of the values
+        # at the other end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),

@@ -34,7 +34,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     A kernel may have a variation (a tangent vector at the state). The variation is the last block, and its
     array is ``vector``.
     """
-    # ``whole`` is the length of the array ``state``, which does not contain the variation.
+    # ``whole`` is the length of the array ``state``. This array does not contain the variation.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

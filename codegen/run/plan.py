@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""Two record types. Each name is used for the type, and for the argument with this type."""
+"""The names of two record types. An argument of one of these types has the same name as its type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -66,7 +66,7 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
-        # These four names denote times and durations, which are separate arguments of the functions.
+        # The excluded names denote times and durations. The functions have separate arguments for these.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
@@ -82,7 +82,7 @@ class Plan:
 
     @property
     def start(self) -> Start | None:
-        """The warm start, which computes initial guesses for the loops. None if there is no warm start."""
+        """The part of the kernel that computes initial guesses for the loops, or None (no warm start)."""
         return self.kernel.start
 
     @property

@@ -1,8 +1,8 @@
 """Choose where a target language such as C declares each scalar variable.
 
 A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
-exception: all uses are in several inner blocks, and each of them assigns the variable before it reads the
-variable. Then each of these inner blocks declares the variable.
+exception: if all uses are in several inner blocks, and each of these blocks assigns the variable before
+reading it, each of these blocks declares the variable.
 
 Let B be the block that declares the variable, and let S be the first statement of B that mentions the
 variable. If S assigns only this variable and does not read it, S also declares it, as in ``double x = 1.0;``.
@@ -38,8 +38,8 @@ class Declarations:
     """The declarations of a function, in two dictionaries with the keys ``id(statement)``.
 
     - ``before`` contains the variables that are declared before a statement, as pairs (identifier, term).
-    - ``by`` contains the variables that a statement itself declares, as a dictionary. Its keys are the
-      identifiers. A value is True if the variable is constant.
+    - ``by`` contains the variables that a statement itself declares, as a dictionary. In this dictionary, the
+      keys are the identifiers, and a value is True if the variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -83,7 +83,7 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # These dictionaries cache the results for each statement. The keys are ``id(statement)``.
+        # Caches of ``mentioned``, ``own`` and ``assignments``. The keys are ``id(statement)``.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -129,8 +129,8 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # One inner block may read the value that another inner block has assigned. Then both blocks need a
-        # common variable, which ``body`` must declare.
+        # One inner block may read the value that another inner block has assigned. Then ``body`` must declare
+        # one common variable for both blocks.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -164,7 +164,7 @@ class _Scopes:
         ``places`` contains the indices of the statements that mention the variable.
         """
         first = body[places[0]]
-        # A variable with two assignments is not constant, even if one of them is in an inner block.
+        # A variable with two assignments is not constant, even if one assignment is in an inner block.
         times = sum(self.assignments(body[k])[name] for k in places)
         # A statement such as ``x = x + 1`` cannot declare ``x``, because it also reads ``x``.
         direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0

@@ -10,7 +10,8 @@ Part number K has several functions:
 - ``flow_K`` is a loop over consecutive sites, or over pairs of one set.
 - ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set.
 - ``whole_K`` exists only for parts with sines, cosines or Stumpff functions. In such a part, ``flow_K``
-  uses fast variants of these functions, which are valid only near zero. ``whole_K`` accepts all arguments.
+  uses fast variants of sines, cosines and Stumpff functions. The fast variants are valid only near zero.
+  ``whole_K`` accepts all arguments.
 - ``pair_K`` exists in a periodic lattice if the pairs are along the last axis. The function computes the pair
   of the last and the first site of a row.
 
@@ -79,7 +80,7 @@ def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick
 
 @dataclass(frozen=True)
 class _Kick:
-    """Builds the functions of a kick, which reads neighbours and changes only momenta."""
+    """Builds the functions of a kick. A kick reads neighbours and changes only momenta."""
 
     loop: Loop
 
@@ -181,7 +182,8 @@ class _Part:
         """Return the function ``flow_K`` or ``whole_K``. The argument ``name`` is ``flow`` or ``whole``.
 
         The function contains a loop over consecutive sites, or over pairs of neighbours. If ``near`` is True,
-        the loop calls fast variants of sines and Stumpff functions, which are valid only near zero.
+        the loop calls fast variants of sines, cosines and Stumpff functions. The fast variants are valid only
+        near zero.
         """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
@@ -210,8 +212,8 @@ class _Part:
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
         """Return the statements that apply this flow to one site or to one pair of sites."""
-        # All entries of the site or pair are loaded before the first entry is stored, because the old and the
-        # new state may be the same array.
+        # The old and the new state may be the same array. Therefore all entries of the site or pair are
+        # loaded before the first entry is stored.
         read = symbols_of(self.own.kernel)
         body: list[Statement] = [
             Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
@@ -241,7 +243,7 @@ class _Part:
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
-        """Return the function for one pair, which consists of the last and the first site of a row."""
+        """Return the function for the pair of the last and the first site of a row."""
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         parameters = (PLACE, _NEAR, SITES, *self.arrays, *self.scalars)
         body = [*before, *self._moved(inside, ends)]
@@ -280,8 +282,8 @@ class _Part:
     def pairs(self) -> Function:
         """Return the function ``part_K`` for a flow of pairs.
 
-        Its argument ``colour`` selects the pairs: 0 if the index of the first site is even, and 1 if it is
-        odd.
+        The argument ``colour`` of ``part_K`` selects the pairs. It is 0 for the pairs whose first site has an
+        even index, and 1 for the other pairs.
         """
         shape = shape_of(self.step)
         last, periodic = self.step.dimension - 1, self.step.periodic
@@ -293,10 +295,10 @@ class _Part:
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            # This is the number of pairs in a row, without the pair of the last and the first site.
+            # ``pairs`` does not count the pair of the last and the first site of a row.
             pairs = (COLUMNS - _COLOUR) // 2
-            # In a lattice, different processors compute different rows. A chain has a single row, which is
-            # divided into chunks for different processors.
+            # In a lattice, different processors compute different rows. A chain has a single row. This row
+            # is divided into chunks for different processors.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:

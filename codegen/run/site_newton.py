@@ -1,9 +1,9 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The equations are u = g(u), with the same number of unknowns at each site. Newton's matrix is 1 - g', where g'
-is the Jacobian of g. In each step, the matrix is factored once. It is computed to first order in the step
-size h, because higher orders would cost more. The rows for site i contain three blocks of the matrix: A_i,
-B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the right neighbour.
+The equations are u = g(u). Each site has the same number of unknowns. Newton's matrix is 1 - g', where g' is
+the Jacobian of g. The matrix is computed to first order in the step size h, because higher orders would cost
+more. In each step, the matrix is factored once. The rows for site i contain three blocks of the matrix: A_i,
+B_i and C_i. These blocks multiply the unknowns of the left neighbour, of site i, and of the right neighbour.
 
 Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
 D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. The products D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i overwrite A_i, B_i
@@ -70,7 +70,7 @@ class ChainSolver:
 
     @property
     def work(self) -> Term:
-        """The array ``work`` of the emitted code, which is the workspace of the step."""
+        """The workspace of the step: the array ``work`` of the emitted code."""
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
@@ -191,10 +191,10 @@ class ChainSolver:
             ),
         )
         # Each new component depends on all old components of the site. Therefore ``value`` stores the new
-        # components until all of them are computed.
+        # components until all new components are computed.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # In back substitution, a new component depends on its old value and on the next site. It does not
-        # depend on other components of the site, so it can overwrite its old value.
+        # In back substitution, a new component does not depend on other components of the site. It depends
+        # only on its old value and on the next site. Therefore the new value can overwrite the old value.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -213,13 +213,13 @@ class ChainSolver:
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
     def factor(self) -> Function:
-        """Return the emitted function that factors the matrix. It returns the number of singular pivots."""
+        """Return the emitted function that factors the matrix and counts the singular pivot blocks."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
         # A singular pivot block does not end the elimination. The caller tests the number of such blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # The pivot block is OWN_BLOCK minus LEFT times R. Here R is the product that has overwritten RIGHT of
-        # the previous site.
+        # The pivot block is OWN_BLOCK minus LEFT times R. Here R is the product that has overwritten the
+        # block RIGHT of the previous site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -238,7 +238,7 @@ class ChainSolver:
                 Assign(column[_I], _SUM),
             )
             # Each new entry depends on all old entries of its column. Therefore ``column`` stores the new
-            # entries until all of them are computed.
+            # entries until all new entries are computed.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -248,7 +248,7 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # These statements copy two blocks to the border before the elimination overwrites the blocks.
+            # Two blocks are copied to the border, because the elimination overwrites both blocks.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -268,8 +268,8 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # The blocks are added, because both blocks of a chain of two sites have the same place in the
-            # border (``_LAST`` is 0).
+            # In a chain of two sites, both blocks have the same place in the border (``_LAST`` is 0).
+            # Therefore the blocks are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -284,8 +284,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # All three blocks belong to the last site. Its right neighbour is site 0, and its left neighbour is
-        # site ``_LAST``.
+        # All three blocks belong to the last site. The right neighbour of the last site is site 0, and the
+        # left neighbour is site ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -308,7 +308,7 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The solution has overwritten the residuals. It contains the changes of the unknowns.
+            # The changes of the unknowns are the solution, which has overwritten the residuals.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
@@ -336,7 +336,7 @@ class ChainSolver:
     def border_solved(self, first: Term) -> list[Statement]:
         """Return the statements that complete the solution of the linear equations in a periodic chain.
 
-        They compute the solution at the last site, and then correct the solution at all other sites.
+        First the solution at the last site is computed. Then the solution at all other sites is corrected.
         ``first`` is the index in the workspace at which the right-hand side begins.
         """
         n, value = self.n, real("value", self.n)
@@ -344,8 +344,8 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
-        # The equations of the last site contain the solution at both neighbours. These terms are subtracted
-        # from the right-hand side.
+        # The equations of the last site contain the solution at both neighbours. The terms of the neighbours
+        # are subtracted from the right-hand side.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
