@@ -68,7 +68,7 @@ def json_text(value: Any) -> str:
 
 @dataclass
 class Run:
-    """One run of the program: its options, and the number of JSON documents that it has printed."""
+    """One run of the program: its options, and the number of JSON documents that the run has printed."""
 
     as_json: bool = False
     traceback: bool = False
@@ -116,8 +116,8 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. With ``--json``, also print ``record`` as JSON, unless this run has
-        already printed a JSON document.
+        """Print the message of an error. With ``--json``, also print ``record`` as JSON if this run has not
+        yet printed a JSON document.
         """
         with contextlib.suppress(OSError):  # A failed output must not change the exit status.
             click.echo(f"orderconds: {record['message']}", err=True)
@@ -167,7 +167,8 @@ def _usage_message(error: click.UsageError) -> str:
 def past_click() -> Iterator[None]:
     """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click would handle these two exceptions itself. It does not catch :class:`Stopped`.
+    The library click would handle these two exceptions itself. The library does not
+    catch :class:`Stopped`.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -187,8 +188,8 @@ def _silence_stdout() -> None:
 
 
 def catch_signals() -> None:
-    """Install handlers for :data:`SIGNALS` that raise :class:`Terminated`. A second signal of the same kind
-    ends the program at once."""
+    """Install handlers for :data:`SIGNALS` that raise :class:`Terminated`. If the same signal arrives a
+    second time, the program ends at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -196,7 +197,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # A parent process, such as nohup, may ignore a signal. This program then ignores it, too.
+        # If a parent process such as nohup ignores a signal, this program ignores the signal, too.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

@@ -28,8 +28,8 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays in which all entries have the same type. In an array of integers, for example, no
-entry can be 1/2."""
+"""Constructors of arrays whose entries have one common type. In an array of integers, for example, no entry
+can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
 """Parts of the names of types such as ``float32`` and ``int64``. An array of such a type is not evaluated,
 because the type is complex or cannot store all doubles."""
@@ -39,7 +39,7 @@ COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
 QUOTIENT_CALLS = ("Fraction", "Rational")
 ROOTS = {"sqrt": 2, "cbrt": 3}
 LIBRARIES = ("fractions", "decimal", "math", "numpy", "sympy", "mpmath", "jax", "cupy", "autograd")
-"""Modules whose functions may occur in expressions, such as ``sqrt`` or ``Fraction``."""
+"""Modules whose functions, such as ``sqrt`` or ``Fraction``, may occur in expressions."""
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
 MAX_OPERATIONS = 5_000
@@ -57,14 +57,14 @@ class Array:
     """The number of the memory that contains the entries. Arrays with equal numbers may share memory."""
 
     def parts(self) -> set[int]:
-        """Return the numbers of the memories of this array and of its rows."""
+        """Return the memory numbers of this array and of its rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 
 @dataclass(frozen=True)
 class Computed:
-    """A placeholder for an unknown value. ``reason`` is the obstacle to the evaluation, such as a call of an
-    unknown function. ``line`` is the line number of the obstacle."""
+    """A placeholder for an unknown value. ``reason`` describes what prevents the evaluation, for example a
+    call of an unknown function. ``line`` is the line number of the cause."""
 
     reason: str
     line: int
@@ -171,7 +171,7 @@ class Values:
     def forget(self, names: Collection[str], line: int) -> None:
         """Mark the variables ``names`` as unknown.
 
-        Each variable that may share an array with one of them also becomes unknown.
+        If another variable may share an array with one of ``names``, the other variable also becomes unknown.
         """
         doubtful, before = frozenset(names), frozenset[str]()
         while doubtful != before:
@@ -391,8 +391,8 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return the fraction that an expression such as 1/3 or -0.5 represents. Return None for other
-    expressions, such as roots and rounded decimals.
+    """Return the fraction that an expression such as 1/3 or -0.5 represents. Return None for roots,
+    rounded decimals and all other expressions.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

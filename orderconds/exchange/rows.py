@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 DELIMITERS = (",", ";", "\t")
 COMMENTS = ("#", "%")
-"""A line that begins with one of these characters is a comment."""
+"""The characters that begin a comment line. Blanks before the character are ignored."""
 
 _WORD = re.compile(r"[^\W\d][\w ()./^-]*")
 _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
@@ -17,7 +17,7 @@ _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a table. The header is a separate tuple, which is empty if the table has no header.
+    """The rows of a table, without the header. If the table has no header, ``header`` is empty.
     The cells contain no blanks at their beginning or end."""
 
     rows: tuple[tuple[str, ...], ...]
@@ -36,7 +36,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     may be a header. There are two kinds of headers:
 
     - In a tableau, the first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``.
-    - In other tables, all cells are words, such as ``time (s)``. The first cell is not an array name
+    - In other tables, each cell is a text such as ``time (s)``. The first cell is not an array name
       from ``names``.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.

@@ -134,7 +134,7 @@ def _cells(value: Cells) -> Cells:
 
 
 def to_sympy(tableau: Tableau) -> dict[str, Matrix]:
-    """Return a map from the names of the arrays of a tableau, such as ``b``, to SymPy matrices.
+    """Return the arrays of a tableau as SymPy matrices. The keys are the names of the arrays, such as ``b``.
 
     >>> from orderconds.checking import read
     >>> to_sympy(read("heun"))["b"]

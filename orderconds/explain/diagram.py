@@ -49,10 +49,10 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    The attribute ``label`` is the printed text of a letter. It is empty for vertices with other signs.
+    If the vertex is a letter, ``label`` is the printed text of the letter. Otherwise ``label`` is empty.
 
-    A force in an action tree has n velocities, which are its first n branches. If n > 0, ``legs`` is a pair
-    (m, n): the edge to the parent comes after the first m velocities. For all other vertices, it is None.
+    The first n branches of a force in an action tree are velocities. If n > 0, ``legs`` is a pair (m, n): the
+    edge to the parent comes after the first m velocities. For all other vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -71,7 +71,8 @@ class ShownTree:
 
 @dataclass(frozen=True, repr=False)
 class ShownTrees:
-    """All trees of one kind and one order. The sequence of the trees is the same in every run."""
+    """All trees of one kind and one order. Every run of the program enumerates the trees in the same
+    sequence."""
 
     kind: Kind
     order: int

@@ -1,4 +1,4 @@
-"""The kinds of trees, such as rooted trees and free trees. A kind enumerates, counts, draws and describes its
+"""Kinds of trees: rooted trees, free trees and others. A kind enumerates, counts, draws and describes its
 trees."""
 
 from __future__ import annotations
@@ -294,9 +294,9 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The function ``partitioned_differential`` needs a tree with vertices of two colours. Directions of
-        # edges and colours have the same encoding, except at the root: a vertex becomes white if the edge to
-        # its parent points to the parent. All other vertices become black.
+        # The function ``partitioned_differential`` needs a tree with vertices of two colours. If the edge
+        # from a vertex to its parent points to the parent, the vertex becomes white. All other vertices
+        # become black. Except at the root, the encodings of directions and colours are equal.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

@@ -1,7 +1,7 @@
 """Drawings of diagrams in SVG, with the root at the bottom. One document contains several drawings.
 
-Coordinates are rounded to two decimal places. Therefore a drawing has the same bytes on every platform. Lines
-have the colour of the surrounding text (``currentColor``).
+Coordinates are rounded to two decimal places. Therefore the bytes of a drawing do not depend on the platform.
+Lines have the colour of the surrounding text (``currentColor``).
 """
 
 from __future__ import annotations
@@ -126,8 +126,9 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and of its caption. Both are centred in the block, whose left
-        end is ``x``. The diagram is above the vertical position ``ground``, the caption is below."""
+        """Yield the SVG elements of the diagram and of its caption. The left end of the block is ``x``. The
+        diagram and the caption are centred in the block. The diagram is above the vertical position
+        ``ground``, the caption is below."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

@@ -1,7 +1,7 @@
 """Families of integration methods. A family, such as ``rk`` or ``rkmk(1)``, turns a tableau into an
 integration method and provides the order conditions of this method.
 
-Each family has its own module, which is imported when the family is first used. The function :func:`register`
+Each family has its own module. The first use of a family imports the module. The function :func:`register`
 adds new families. The function :func:`get` returns a family:
 
 >>> from orderconds import families

@@ -1,6 +1,7 @@
-"""The base class of families of variational methods. Their order conditions belong to action trees.
+"""The base class of families of variational methods. The order conditions of these methods belong to action
+trees.
 
-The module :mod:`orderconds.series.action_trees` defines these trees.
+The module :mod:`orderconds.series.action_trees` defines action trees.
 """
 
 from __future__ import annotations
@@ -37,9 +38,9 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family with one order condition for each action tree.
 
-    The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is
-    the coefficient of t in the velocity of stage i, which is an element of the Lie algebra. The conditions of
-    order n belong to the trees with n vertices.
+    The left-hand side of the condition of the tree t is ``sum_i b_i tau_t(i)``. The velocity of
+    stage i is an element of the Lie algebra, and the number ``tau_t(i)`` is the coefficient of t in this
+    velocity. The conditions of order n belong to the trees with n vertices.
 
     The function :meth:`conditions` returns independent conditions. To find them, it evaluates all conditions
     for random integration methods. The function :meth:`decisive_conditions` evaluates no methods and
@@ -58,7 +59,8 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of a method of this family with random coefficients in ``ring``.
+        """Return the action series of a random method of this family. The method has coefficients in
+        ``ring``.
 
         In some rings, an element is a vector with one entry for each of several methods. The number of
         stages grows with ``order``. With too few stages, independent conditions could seem dependent.
@@ -66,7 +68,7 @@ class ActionFamily(Family):
 
     @abstractmethod
     def formula(self) -> ActionFormula:
-        """Return the object that constructs the index sums of the conditions of this family."""
+        """Return the object that writes the conditions of this family as sums over indices."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return independent conditions of the given order. A condition is omitted if it follows from simpler
@@ -118,8 +120,8 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of the given order.
 
-        If two trees differ only in the choice of the root, their conditions are equivalent. Such trees form a
-        class. The result contains only the condition of the simplest tree of each class.
+        A class consists of all trees that differ only in the choice of the root. Their conditions are
+        equivalent. The result contains only the condition of the simplest tree of each class.
         """
         return tuple(map(self.condition, representatives(order)))
 

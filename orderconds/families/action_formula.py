@@ -4,11 +4,11 @@ The conditions contain coefficients of words in a product of exponentials. The l
 Let u be a word of k letters. Each letter comes from one of the exponentials, and the n-th letter comes from
 the exponential with index j_n. The coefficient of u is a sum over all indices with ``j_1 <= ... <= j_k``.
 Each term is a product of k factors: the coefficients of the letters in the exponents. If r letters come from
-the same exponential, the term is divided by r!.
+one exponential, the term is divided by r!.
 
-A run is a group of adjacent letters from the same exponential. Each division of u into runs gives one sum,
-with one index for each run. The indices increase strictly from run to run. The coefficient of u is the sum
-over all divisions.
+A run consists of all letters that come from one exponential. These letters are adjacent. Each division of u
+into runs gives one sum, with one index for each run. The indices increase strictly from run to run. The
+coefficient of u is the sum over all divisions.
 
 The coefficient is simpler if the k letters are equal. Let S be the sum of the letter's coefficients in all
 exponents. In this case, the coefficient of u is S^k/k!. Printed conditions contain no denominator k!, because
@@ -43,16 +43,16 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of action trees. One of the letters can be a string instead of a tree. This string is the index of a
-stage, and it represents the letter x in :meth:`ActionFormula.through`."""
+"""A word of action trees. One of the letters can be a string instead of a tree. This string represents the
+letter x in :meth:`ActionFormula.through`. The string is the index of a stage."""
 
 
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    The coefficient of a word of k equal letters has the denominator k!. The multiplication removes these
-    denominators. A velocity contributes k! to the factor if its word consists of k equal letters. The factor
-    is the product of these contributions over the tree and all its subtrees.
+    The coefficient of a word of k equal letters has the denominator k!. The multiplication removes all such
+    denominators. If the word of a velocity consists of k equal letters, the velocity contributes k! to the
+    factor. The factor is the product of the contributions of the tree and of all its subtrees.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -177,10 +177,10 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return a pair (factor, formula). Their product is one term of the result of :meth:`between`.
+        """Return a pair (factor, formula). The product of both is one term of the result of :meth:`between`.
 
-        The word is divided into runs, and all letters of a run come from the same exponential. ``lengths``
-        contains the number of letters in each run. The factor is the product of 1/r! over the runs, where r
+        The word is divided into runs. All letters of a run come from one exponential. ``lengths`` contains
+        the number of letters in each run. The factor is the product of 1/r! over the runs, where r
         is the number of letters in the run.
         """
         places = [self.place() for _ in lengths]
@@ -194,8 +194,8 @@ class ExponentialsFormula(ActionFormula):
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of the word u x v in the product of exponentials of stage ``row``.
 
-        Here u is ``before``, v is ``after``, and x is a letter that occurs in one exponent only. The index of
-        this exponent is ``place``, and the coefficient of x in the exponent is one.
+        Here u is ``before`` and v is ``after``. The letter x occurs only in the exponent with index
+        ``place``. The coefficient of x in this exponent is one.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -219,7 +219,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return an unused name for the index of a stage, which is also the index of an exponential."""
+        """Return an unused name for the index of a stage. This index is also the index of an exponential."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
@@ -286,9 +286,9 @@ class MuntheKaasFormula(ActionFormula):
     """The index sums of Munthe-Kaas methods. Stage i has the exponential exp(X_i), and the update has exp(Y).
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here ``v_j = dexpinv_{X_j} xi_j``,
-    and xi_j is the velocity of stage j. The operator dexpinv is the inverse of the differential of exp. It is
-    a power series in ad, which is truncated after the power ``cutoff``. If ``cutoff`` is None, the series is
-    not truncated.
+    and xi_j is the velocity of stage j. The operator dexpinv is the inverse of the differential of exp. The
+    operator is a power series in ad. The series is truncated after the power ``cutoff``. If ``cutoff`` is
+    None, the series is not truncated.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -379,8 +379,9 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X is the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0, the
-            # power X^m does not contain the empty word. All terms that vanish for this reason are skipped.
+            # X is the exponent of the stage. The power X^0 = 1 contains only the empty word. For m > 0, each
+            # word in X^m has at least m letters. If the coefficient of ``before`` in X^m or of ``behind`` in
+            # X^n is therefore zero, the term is skipped.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):
@@ -395,7 +396,8 @@ class PadeFormula(MuntheKaasFormula):
 
     The exponents are ``X_i = sum_j a_ij v_j`` and ``Y = sum_j b_j v_j``. Here v_j is the solution of the
     equation ``dexp_{X_j} v_j = xi_j``, and xi_j is the velocity of stage j. The operator dexp is the
-    differential of exp. It is a power series in ad, which is truncated after the power ``cutoff``.
+    differential of exp. The operator is a power series in ad. The series is truncated after the power
+    ``cutoff``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -17,7 +17,7 @@ from orderconds.tableau.record import Tableau
 
 @register
 class AmbientFamily(RungeKuttaFamily):
-    """Runge-Kutta methods in the ambient space. The conditions are the same as in the family ``rk``.
+    """Runge-Kutta methods in the ambient space. The conditions are those of the family ``rk``.
 
     >>> [str(condition) for condition in AmbientFamily().conditions(2)]
     ['sum_i b_i c_i = 1/2']
@@ -34,8 +34,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file states only the order in the family ``rk``, because the order in the
-        family ``ambient`` is the same."""
+        """Return None. The orders in the families ``ambient`` and ``rk`` are equal, and a tableau file states
+        only the order in the family ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

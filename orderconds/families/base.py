@@ -1,7 +1,7 @@
 """The base class of all families of integration methods.
 
 A family determines which integration method a tableau defines. The order conditions of the family compare the
-series of this method with the series of the exact flow. The base class declares all attributes and functions
+series of the method with the series of the exact flow. The base class declares all attributes and functions
 of a family that other modules use.
 """
 
@@ -41,26 +41,26 @@ class Family(ABC):
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
     :meth:`evaluate`. All other attributes and functions have defaults. The function
-    :func:`orderconds.families.register` makes the family available to every command. An option of a
-    family, such as ``cutoff``, is an integer parameter of the constructor of its class.
+    :func:`orderconds.families.register` makes the family available to every command. The options of a
+    family, such as ``cutoff``, are integer parameters of the constructor of the class.
     """
 
     name: ClassVar[str] = ""
     """The name of the family in commands and claims, in lower case."""
     description: ClassVar[str] = ""
-    """A description in one line, which the command ``orderconds list families`` prints."""
+    """A description in one line. The command ``orderconds list families`` prints the description."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if each method of the family is defined by a tableau. False if each method is defined by a label,
-    such as ``taylor(12)``.
+    """True if a tableau defines each method of the family. False if a label such as ``taylor(12)`` defines
+    the method.
     """
     source: ClassVar[str] = ""
     """The publication that defines the methods of a family without tableaux. Empty for other families."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """True if formulas of the family divide by the weights b_i. Such a family requires non-zero weights."""
+    """True if formulas of the family divide by the weights b_i. Then all weights must be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` computes for a tableau file without a stated order."""
     order_bound: ClassVar[int | None] = None
@@ -92,7 +92,7 @@ class Family(ABC):
     abelian: ClassVar[str | None] = None
     """The name of the family to which this family reduces on an abelian group, or None."""
     low_order: ClassVar[str | None] = None
-    """The name of a family that has the same conditions of orders 1 and 2 as this family, or None."""
+    """The name of a family whose conditions of orders 1 and 2 equal those of this family, or None."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` derives bounds of orders in other families from the order in this family."""
     low_storage: ClassVar[tuple[str, ...]] = ()
@@ -103,8 +103,8 @@ class Family(ABC):
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. In this case, two updates with different weights use
-    the same stages. The difference of the two updates estimates the error.
+    """True if the stages do not depend on the weights. Then one set of stages is enough for two updates with
+    different weights. The difference of the two updates estimates the error.
     """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
@@ -113,7 +113,7 @@ class Family(ABC):
     controls_steps: ClassVar[bool] = False
     """True if step-size control needs no embedded method."""
     takes_cutoff: ClassVar[bool] = False
-    """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
+    """True if the family has the option ``cutoff``. This option truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
     """The highest order for which the compiler can minimise the number of brackets of a method. The compiler
     does this only for methods without ``cutoff``.
@@ -130,8 +130,8 @@ class Family(ABC):
     accept the family.
     """
     symplectic: ClassVar[bool] = False
-    """True if a search considers only symplectic tableaux. Their coefficients satisfy b_i a_ij + b_j a_ji =
-    b_i b_j."""
+    """True if a search considers only symplectic tableaux. A tableau is symplectic if b_i a_ij + b_j a_ji =
+    b_i b_j for all i and j."""
     equal_abscissae: ClassVar[bool] = False
     """True if each method of order three with positive weights has equal abscissae: c_i = chat_i = m_i. The
     module :mod:`orderconds.solve.abscissae` defines these abscissae.
@@ -241,7 +241,7 @@ class Family(ABC):
         """Return the residuals of the :meth:`conditions` of the given order.
 
         For a method of order p, the 2-norm of the residuals of order p + 1 measures the local error. A
-        subclass can use other conditions of the given order for this purpose.
+        subclass can return the residuals of other conditions of the given order.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -262,7 +262,7 @@ class Family(ABC):
     def for_method(self, method: Method) -> Family:
         """Return the family in which the order of ``method`` is tested if the tableau file states no order.
 
-        ``self`` is the family with the same name as the tableau format. By default, return ``self``. A family
+        The name of ``self`` is the name of the tableau format. By default, return ``self``. A family
         of splittings returns the variant with the number of vector fields of ``method``.
         """
         return self
@@ -283,7 +283,7 @@ class Family(ABC):
         """Return variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``.
 
         The variant with the cheapest step comes first. The command ``orderconds solve`` writes the order in
-        this variant to the tableau file. It adds the order in the next variant only if this order is higher.
+        this variant to the tableau file. A higher order in the next variant is added.
         """
         return (self,)
 
@@ -297,7 +297,7 @@ class Family(ABC):
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of a family without tableau, such as ``taylor(12)``.
+        """Return the order of a family without tableau. For example, the family ``taylor(12)`` has order 12.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
@@ -314,8 +314,9 @@ class Family(ABC):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknown coefficients of a method with ``stages`` stages, for use in a search.
 
-        If ``explicit`` is true, the method is explicit. Raises :class:`~orderconds.errors.InputError` if the
-        number of stages does not determine which coefficients a method of this family has.
+        If ``explicit`` is true, the method is explicit. In some families, the number of stages does not
+        determine which coefficients a method has. Then the function raises
+        :class:`~orderconds.errors.InputError`.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -353,8 +354,8 @@ class Family(ABC):
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
         """Return a family with fewer conditions, and ``method`` in a format that this other family accepts.
 
-        For ``method``, the conditions of the other family imply the conditions of this family. Return None
-        if no such family is known.
+        If ``method`` satisfies the conditions of the other family, ``method`` satisfies the conditions of
+        this family. Return None if no such family is known.
         """
         return None
 

@@ -9,8 +9,8 @@ the Lie algebra {X: X^T P + P X = 0}. If A(t) is in this algebra for all t, Omeg
 
 The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... Reversing the n letters of a word multiplies
 its coefficient in Omega by (-1)^(n+1). Therefore a word and its reverse have equivalent conditions, and only
-one of these conditions is kept. If n is even and a word equals its reverse, its coefficient is zero. The
-condition of this word is omitted (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
+one of these conditions is kept. If n is even and a word equals its reverse, the coefficient of the word is
+zero, and its condition is omitted (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
 Comput. Math. 8 (1998) 317).
 """
 

@@ -4,8 +4,8 @@ The step with m exponentials is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i
 c_i are the nodes.
 
 There is one condition for each word. The letter k of a word denotes X_k in the expansion A(t) = X_1 + t X_2 +
-.... The weight of this letter is k. The condition states that the word has the same coefficient in the step
-and in the exact flow. In the exact flow, the coefficient is an iterated integral (Blanes and Moan, Appl.
+.... The weight of the letter k is k. The condition of a word states that its coefficients in the step and in
+the exact flow are equal. The coefficient in the exact flow is an iterated integral (Blanes and Moan, Appl.
 Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 

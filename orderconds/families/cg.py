@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-Here k_j is the value of the vector field at stage j. The exponential of k_1 acts first. Stage i has the same
-form, with the coefficients a_ij instead of b_j.
+Here k_j is the value of the vector field at stage j. The exponential of k_1 acts first. In stage i, the
+coefficients a_ij replace b_j.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau (A, b), else None.
 
-        The file of the tableau should state the order of the Crouch-Grossman method with this tableau.
+        The file of such a tableau should state the order of the Crouch-Grossman method.
         """
         return cls() if has_weights(tableau) else None
 
@@ -92,7 +92,7 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if a palindrome of exponentials proves that a Crouch-Grossman method is symmetric.
 
-    The variational Crouch-Grossman method with the same tableau is then symmetric, too. See
+    Then the variational Crouch-Grossman method of this tableau is symmetric, too. See
     :mod:`orderconds.tableau.palindromes` for the criterion.
 
     >>> from orderconds.tableau import find

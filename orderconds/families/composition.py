@@ -5,9 +5,9 @@ is symmetric, X_2, X_4, ... are zero. The logarithm of Phi_{alpha h} is the sum 
 logarithm of the adjoint Phi*_{beta h} is the sum of -(-beta)^k h^k X_k over k.
 
 There is one condition for each word. The letter k of a word denotes X_k and has the weight k. The condition
-of a word states that the word has the same coefficient in the series of one step and of the exact flow. If
-all n letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW III.3.1; Murua
-and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+of a word states that its coefficients in the series of one step and of the exact flow are equal. If all n
+letters of a word are 1, the coefficient in the exact flow is 1/n!, otherwise zero (HLW III.3.1; Murua and
+Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}.
 
-    Here Phi_h is a method with step size h, and Phi*_h is its adjoint.
+    Here Phi_h is a method with step size h, and Phi*_h is the adjoint method.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -167,8 +167,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
     """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
     The step is a product of factors, such as exponentials. The function ``block`` returns the coefficient
-    of a word in the series of one factor (:data:`BlockFormula`). The argument ``kind`` is the name of the
-    summation indices, such as "i" or "J".
+    of a word in the series of one factor (:data:`BlockFormula`). The argument ``kind``, such as "i" or
+    "J", is the name of the summation indices.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

@@ -1,12 +1,12 @@
 """Families with the option ``cutoff``: the series of dexpinv in powers of ad is truncated.
 
 The value r of ``cutoff`` is the exponent of the last power that is kept. For even r >= 2, the next Bernoulli
-number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1 if r >= 2 is even, and R = r
-otherwise.
+number B_(r+1) is zero. Then the cutoffs r and r + 1 define the same method. Let R = r + 1 if r >= 2 is even,
+and R = r otherwise.
 
-Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method with the
-same tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method with the same
-tableau (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
+Let p be the order without truncation. For RKMK methods, p is the order of the Runge-Kutta method of the
+tableau. For VRKMK methods, p is the order of the symplectic partitioned Runge-Kutta method of the tableau
+(HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
 The truncation changes one step by a term with h^(R+3) and by higher powers of h. The order with truncation is
 min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3).
@@ -54,14 +54,14 @@ class DexpinvCut(Family):
         letters of a word are trees."""
 
     def label(self) -> str:
-        """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
+        """Return the name of the family with its cutoff, such as ``rkmk(1)``.
 
         If dexpinv is not truncated, return the name alone.
         """
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the entry of a tableau file that states the order ``order`` for this family."""
+        """Return the entry of a tableau file for a method of order ``order`` in this family."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -76,8 +76,8 @@ class DexpinvCut(Family):
         """Return a lower bound of the order of a method in this family.
 
         ``orders`` maps the names of other families to the orders of the method in these families. One bound
-        is min(p, R + 2) from the module docstring, or p if ``cutoff`` is None. If the base class gives a
-        larger bound, return the larger bound.
+        is min(p, R + 2), or p if ``cutoff`` is None. The module docstring defines p and R. The base class
+        gives another bound. The result is the larger of the two bounds.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
