@@ -1,13 +1,13 @@
 """The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu).
 
 A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
-caller passed the state, and returns results in this form. Each part of a tuple may have its own shape, such
-as a 3 x 3 matrix q and a vector mu. Matrices are flattened by rows. A batch is an array with a state in each
-row, or a tuple of such arrays.
+caller passed the state, and returns results in this form. The parts of a tuple may have different shapes,
+for example a 3 x 3 matrix q and a vector mu. Matrices are flattened by rows. A batch is an array with a state
+in each row, or a tuple of such arrays.
 
-The manifest of an emitted module lists the parts of a state, such as q and mu. A tuple must contain the parts
-in the order of the manifest. The sizes of the parts are checked. If two parts have the same size, an
-exchange of these parts is not detected.
+The manifest of an emitted module lists the parts of a state, for example q and mu. A tuple must contain the
+parts in the order of the manifest. The sizes of the parts are checked. An exchange of two parts of equal size
+is not detected.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 from codegen.argument import described, real
 
 State = Any
-"""A sequence of floats, a NumPy array, or a tuple of these."""
+"""A sequence of floats, a NumPy array, or a tuple of sequences and arrays."""
 
 Fields = tuple[tuple[str, int], ...]
 """The name and the size of each part of a state, in the order of the parts in the state.

@@ -1,8 +1,9 @@
 """Derive, prove and compile Lie group integrators.
 
 A method is given by a tableau and a family. The family determines the series of the method. A comparison of
-this series with the series of the exact flow gives the order conditions. This package contains the symbolic
-computations. The package ``codegen`` compiles a method for a scene, the description of one mechanical system.
+the series of the method with the series of the exact flow gives the order conditions. The package
+``orderconds`` contains the symbolic computations. The package ``codegen`` compiles a method for a scene, the
+description of one mechanical system.
 
 Conventions
 -----------
@@ -19,8 +20,8 @@ so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. On SO(3), so(3) and it
 R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
-Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. The
-values r = 2 and r = 3 give the same map, because B_3 = 0. On every group, dexp_x o dexp^{-1}_{-x} = Ad_{exp
+Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r.
+Because B_3 = 0, the series for r = 2 and r = 3 are equal. On every group, dexp_x o dexp^{-1}_{-x} = Ad_{exp
 x}. On SO(3), dexp*_x = dexp_{-x}.
 
 *Phase space.* T*G is the group G x g* with the product (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A
@@ -28,8 +29,8 @@ Hamiltonian H(q, mu) gives f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where 
 with respect to q and mu. The equations of motion are q' = xi.q and mu' = n - ad*_xi mu.
 
 *Symplectic partitioned tableaux.* The first tableau has the weights b_i and the entries a_ij. The second
-tableau has the weights bhat_i = b_i and the entries ahat_ij = b_j - b_j a_ji/b_i. This formula requires
-b_i != 0. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
+tableau has the weights bhat_i = b_i and the entries ahat_ij = b_j - b_j a_ji/b_i. All b_i must be
+non-zero. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
 *Order.* A method has order p when its series agrees with the series of the exact flow through the power h^p.
 A word t_1 ... t_k is a sequence of letters, for example of trees. The letter t_1 acts first.

@@ -7,7 +7,7 @@ Integration*, Chapter IX).
 
 On a Lie group, the field y -> f(p).y is called the field frozen at the point p. For a Lie group method, the
 fields f_2, f_3, ... are sums of two kinds of terms: elementary differentials along frozen fields, and
-commutators of these differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+commutators of elementary differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: if the method is applied to the modifying field, one step is
 the exact flow of f. The modifying field, too, is a series in h (Chartier, Hairer and Vilmart, Math. Comp. 76

@@ -1,7 +1,7 @@
 """The command-line program. A built-in command is imported when it is used, so the program starts quickly.
 
-:data:`BUILT_IN` lists the built-in commands. Other packages, such as ``codegen``, provide commands as entry
-points (see :data:`COMMAND_GROUP`).
+:data:`BUILT_IN` lists the built-in commands. Other packages, for example ``codegen``, provide commands as
+entry points (see :data:`COMMAND_GROUP`).
 """
 
 from __future__ import annotations
@@ -193,8 +193,8 @@ def _offered() -> Iterable[EntryPoint]:
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
     """Raise a UsageError if an option with a value is repeated, or if two flags contradict each other.
 
-    Options that are declared with ``multiple=True`` may be repeated. Two flags contradict each other if they
-    set the same parameter, for example ``--quick`` and ``--full``.
+    Options that are declared with ``multiple=True`` may be repeated. Two flags, for example ``--quick`` and
+    ``--full``, contradict each other if both set the same parameter.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))

@@ -1,9 +1,9 @@
 """An order condition is an equation ``formula = rhs`` for one tree.
 
 The numerical solution and the exact solution are series with one term for each tree. ``formula`` is the
-coefficient of the tree in the numerical solution. It depends on the parameters of the method, such as a_ij
-and b_i. The number ``rhs`` is the coefficient of the same tree in the exact solution. A method has order p
-if and only if all conditions of the orders 1, ..., p hold.
+coefficient of the tree in the numerical solution. This coefficient depends on the parameters of the method,
+for example a_ij and b_i. The number ``rhs`` is the coefficient of the tree in the exact solution. A method
+has order p if and only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ class OrderCondition:
     ``formula`` is the coefficient of ``tree`` in the series of the numerical solution. The number ``rhs`` is
     the coefficient of ``tree`` in the series of the exact solution.
 
-    - ``family`` is the label of the family, such as ``rkmk(1)``.
+    - ``family`` is the label of the family, for example ``rkmk(1)``.
     - ``order`` is the order of the condition.
     - ``tree`` is the text of a tree or word.
     - ``source`` is the left-hand side, or a function that returns the left-hand side. The attribute
-      ``formula`` is the same formula with readable index names.
+      ``formula`` is the left-hand side with readable index names.
     - ``key`` is the tree in the internal encoding of the family.
-    - ``relation`` is None for an independent condition. For a dependent condition, ``relation`` is the text
-      of a polynomial that equals the left-hand side, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<x>`` is
-      the left-hand side of the condition of the tree x.
+    - ``relation`` is None for an independent condition. For a dependent condition, the left-hand side
+      equals a polynomial in the left-hand sides ``<x>`` of the conditions of trees x. ``relation`` is
+      the text of the polynomial, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
@@ -82,7 +82,7 @@ class OrderCondition:
         return sympy.Eq(export(self.formula), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
-        """Return the entry of this condition in the output of ``orderconds derive --format json``."""
+        """Return the entry of the condition in the output of ``orderconds derive --format json``."""
         record: dict[str, object] = {
             "order": self.order,
             "tree": self.tree,

@@ -31,7 +31,7 @@ class Derivation:
     order: int
     by_order: tuple[tuple[OrderCondition, ...], ...]
     remark: str = ""
-    """A remark for the user on the conditions of this derivation, or an empty string."""
+    """A remark for the user on the conditions, or an empty string."""
 
     @property
     def counts(self) -> tuple[int, ...]:
@@ -100,9 +100,9 @@ def derive(
     """Derive the independent order conditions of ``family`` up to ``order``.
 
     If ``every`` is true, derive the conditions of all trees, including the dependent conditions. If
-    ``stages`` is given, the sums over stages are expanded for this number of stages. If ``explicit`` is also
-    true, the result is for explicit methods. ``options`` are options of the family, such as ``cutoff``
-    for RKMK. Options may also be part of the family's name, as in ``"rkmk(1)"``.
+    ``stages`` is given, the sums over stages are expanded for ``stages`` stages. If ``explicit`` is also
+    true, the result is for explicit methods. ``options`` are options of the family, for example
+    ``cutoff`` of RKMK. Options may also be part of the family's name, as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
     :class:`~orderconds.errors.InputError` in these cases:
@@ -112,7 +112,7 @@ def derive(
     - The family has no conditions of the given order.
     - ``stages`` is not an integer from 1 to 12.
     - ``explicit`` is true, but ``stages`` is not given.
-    - The conditions cannot be expanded for this number of stages, or the expansion has too many terms.
+    - The conditions cannot be expanded for ``stages`` stages, or the expansion has too many terms.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

@@ -12,7 +12,7 @@ from codegen.groups import SO3, Conjugation
 from codegen.scene import FieldScene
 
 L = Matrix(3, 3, symbols("l0:3(0:3)", real=True))
-# The vector f of so(3) has the skew matrix [[0, -f2, f1], [f2, 0, -f0], [-f1, f0, 0]]. This matrix is B.
+# The vector f of so(3) has the skew matrix B = [[0, -f2, f1], [f2, 0, -f0], [-f1, f0, 0]].
 f = Matrix([-L[1, 2], L[0, 2], -L[0, 1]])
 B = Matrix([[0, L[0, 1], L[0, 2]], [-L[0, 1], 0, L[1, 2]], [-L[0, 2], -L[1, 2], 0]])
 

@@ -1,15 +1,15 @@
 """Wilson flow of a plaquette, the smallest lattice gauge field: SU(3)^4 acts on four link matrices.
 
 A link is a matrix V in SU(3). The equation of a link is V' = -g0^2 (dS(V)) V, where g0 is the coupling
-constant and S is the Wilson action. The plaquette P = V0 V1 V2^H V3^H gives g0^2 S = 2 Re tr(1 - P). Here V^H
-is the conjugate transpose of V. The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is the
-generator of the link. The generator is equal to the traceless anti-Hermitian part of -X. Here X is the
-product of the four links around the plaquette, beginning with V. S decreases to 0.
+constant and S is the Wilson action. Let V^H be the conjugate transpose of V. The plaquette P = V0 V1 V2^H
+V3^H gives g0^2 S = 2 Re tr(1 - P). The derivative dS(V) is an element of the Lie algebra, and -g0^2 dS(V) is
+the generator of the link. Let X be the product of the four links around the plaquette, beginning with V. The
+generator is equal to the traceless anti-Hermitian part of -X. S decreases to 0.
 
 The initial links are random with a fixed seed. A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 
 Source: M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2. The
-tableau ``luescher3`` is the Runge-Kutta method of appendix C of this article.
+tableau ``luescher3`` is the Runge-Kutta method of appendix C of the article.
 """
 
 from random import Random

@@ -1,4 +1,4 @@
-"""Snippets are the run-time helpers of emitted code. This module computes their call graph.
+"""Snippets are the run-time helpers of emitted code. This module computes the call graph of the helpers.
 
 A node is a helper, or a function in the mathematical library of the target language. An edge leads from a
 helper to a function that it calls. The folder ``snippets/TARGET`` contains the templates of the helpers.
@@ -25,7 +25,7 @@ LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
 
 @dataclass(frozen=True)
 class Snippet:
-    """A helper of emitted code: its template, the values for this template, and the functions it calls."""
+    """A helper of emitted code: a template, values for the template, and the functions to call."""
 
     name: str
     template: str
@@ -75,7 +75,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the helpers that compute c_k(z) at the same z for all k in ``orders``."""
+    """Return the helpers that compute c_k(z) for all k in ``orders`` at one z."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]
@@ -107,9 +107,9 @@ def _shared_angle(
 def trigonometric(precision: Precision) -> list[Snippet]:
     """Return the helpers for sine and cosine in loops over many systems.
 
-    The helpers ``sin_near`` and ``cos_near`` have no branches. They are for angles up to
-    :data:`~codegen.snippets.lane_angles.LARGEST`. The helpers ``sin_complete`` and ``cos_complete`` are for
-    all angles. For larger angles they call the library functions.
+    The helpers ``sin_near`` and ``cos_near`` have no branches and are valid for angles up to
+    :data:`~codegen.snippets.lane_angles.LARGEST`. The helpers ``sin_complete`` and ``cos_complete`` are valid
+    for all angles. For larger angles they call the library functions.
     """
     shared = {
         **lane_angles.reduction(precision),
@@ -175,8 +175,8 @@ def needed(
     - ``functions``: the functions that the module calls.
     - ``sweeps``: True if the module solves equations by iteration. In this case all helpers for Stumpff
       functions are declared inline in C.
-    - ``wide``: the number of rows of the inverted matrices if all have the same small size, else 0. If
-      ``wide`` is not 0, the inner loop of the inversion is unrolled in C.
+    - ``wide``: the number of rows of each inverted matrix if all inverted matrices have the same small size,
+      else 0. If ``wide`` is not 0, the inner loop of the inversion is unrolled in C.
     - ``widest``: the number of rows of the largest inverted matrix.
     - ``chain``: the number of angles in the longest sequence of rotations in a step. In such a sequence, the
       angle of each rotation is computed from the result of the preceding rotation

@@ -5,10 +5,10 @@ have no branches.
 
 The reduced angle of an angle x is r = x - k pi/2, where k is the integer nearest to 2x/pi. To compute k
 without a branch, the large constant ``round`` is added to 2x/pi, and is subtracted from the sum. The sum is
-an integer, because floating-point numbers of this size have no fraction. The number pi/2 is stored as a sum
-of parts. All parts except the last have few bits, so their products with k are exact. Polynomials for the
-Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and
-cos r = c_0(r^2).
+an integer, because floating-point numbers as large as ``round`` have no fraction. The number pi/2 is stored
+as a sum of parts. All parts except the last have few bits, so their products with k are exact. Polynomials
+for the Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2)
+and cos r = c_0(r^2).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``largest``: the largest angle that can be reduced.
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
-    - ``round``: a large number. The floating-point sum of this number and 2x/pi is an integer.
+    - ``round``: a large number. The floating-point sum of ``round`` and 2x/pi is an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

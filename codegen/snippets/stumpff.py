@@ -1,15 +1,15 @@
 """Evaluation of Stumpff functions for z >= 0: the intervals of z, and the coefficients of polynomials.
 
-The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. They have the closed forms
+The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. The closed forms are
 
     c_0 = cos sqrt z,   c_1 = sin(sqrt z)/sqrt z,
     c_2 = (1 - cos sqrt z)/z,   c_3 = (sqrt z - sin sqrt z)/z^(3/2).
 
-If z <= SWITCH[k], c_k is evaluated by a polynomial, which is shorter for very small z. If z > SWITCH[k], c_0
-and c_1 are evaluated by their closed forms. The closed forms of c_2 and c_3 suffer from cancellation, so the
-formulas c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z are used. The formula of c_3 has no cancellation, because
-c_1 < 1/2 for z > SWITCH[3] = 4. The error is at most two units in the last place, apart from the effect of
-the rounding error in sqrt z. For z above :func:`limit` the value is NaN.
+If z <= SWITCH[k], c_k is evaluated by a polynomial. For very small z the polynomial is shorter. If z >
+SWITCH[k], c_0 and c_1 are evaluated by their closed forms. The closed forms of c_2 and c_3 suffer from
+cancellation, so the formulas c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z are used. The formula of c_3 has no
+cancellation, because c_1 < 1/2 for z > SWITCH[3] = 4. The error is at most two units in the last place, apart
+from the effect of the rounding error in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -91,8 +91,8 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     of shifted Chebyshev polynomials are subtracted. The shifted polynomials are zero at z = 0, so the value
     at z = 0 is exact.
 
-    The bound is below the rounding error for the following reason. In a steady motion z is nearly constant,
-    so the errors of all steps have the same sign and add up.
+    The bound is below the rounding error for the following reason. In a steady motion z is nearly constant.
+    Then the errors of the polynomial have the same sign in all steps and add up.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]

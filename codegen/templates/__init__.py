@@ -14,7 +14,7 @@ from jinja2 import Environment, PackageLoader, PrefixLoader, StrictUndefined
 
 @cache
 def environment(target: str) -> Environment:
-    """Return the environment of a target, such as ``c``. Later calls return the same object."""
+    """Return the environment of the target language ``target``, for example ``c``. The result is cached."""
     loader = PrefixLoader(
         {
             "module": PackageLoader("codegen.templates", target),

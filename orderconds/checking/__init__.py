@@ -1,7 +1,7 @@
 """Compute and certify the order of a tableau in each family in which its file claims an order.
 
-The conditions of order 1, 2, ... are evaluated until a condition fails. A claim holds only if the claimed
-order equals the computed order.
+The conditions of order 1, 2, ... are evaluated until a condition fails. A claim holds only
+if the claimed order equals the computed order.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
 the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
@@ -9,10 +9,10 @@ that the condition fails. A certificate states how the order was established. Th
 
 - ``exact``: every residual up to the order is zero in an exact ring.
 - ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
-  Each coefficient of this method differs from the given decimal by at most one unit of the last digit
+  Each coefficient of the proved method differs from the given decimal by at most one unit of the last digit
   (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
-- ``double``: the same as ``decimal``, for coefficients in double precision.
+- ``double``: as ``decimal``, but the coefficients are doubles.
 - ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.
 """
 

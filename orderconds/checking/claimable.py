@@ -16,7 +16,7 @@ from orderconds.tableau import Tableau
 
 
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families in which a file of this tableau should claim an order.
+    """Return the families in which a file of ``tableau`` should claim an order.
 
     Families that need non-zero weights come last. Among the families before them, families on vector spaces
     come first.

@@ -1,7 +1,7 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator. If no fraction agrees, the coefficient is
-compared with numbers x + y sqrt(d). Here x and y are rational, and d is the same for all coefficients.
+compared with numbers x + y sqrt(d), where x and y are rational. All coefficients have the same d.
 
 The digits of the given coefficients support an order p. The exact coefficients are accepted if exact
 arithmetic proves that their method has at least the order p.
@@ -112,7 +112,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 def _fraction(x: Constant) -> Fraction | None:
     """Return the simplest fraction within the uncertainty of x.
 
-    Return None if the denominator of this fraction is too large (:data:`CHANCE`).
+    Return None if the denominator of the simplest fraction is too large (:data:`CHANCE`).
     """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None

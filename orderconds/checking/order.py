@@ -22,15 +22,15 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""If an order has at most this number of conditions, all of them are evaluated.
+"""If an order has at most EXHAUSTIVE conditions, all conditions of the order are evaluated.
 
 If an order has more conditions, the evaluation ends after the first batch with a failing condition. The
-report contains only the failing conditions of this batch. It contains no error norm, because the norm needs
-the residuals of all failing conditions.
+report contains only the failing conditions of this batch. The report contains no error norm, because the norm
+needs the residuals of all failing conditions.
 """
 
 STOPPED = "stopped"
-"""The verdict on an order if a limit is reached before all conditions of this order are evaluated."""
+"""The verdict on an order if a limit is reached before all conditions of the order are evaluated."""
 
 DOUBLE = "double"
 """The certificate of an order whose conditions hold to double precision, but are not proved."""
@@ -138,7 +138,7 @@ def family_order(
       the latest, at the largest of the orders ``family.search_limit``, ``claimed + 1`` and ``required + 1``.
     - ``bound``: the result for another family. The conditions of the other family are also conditions of
       ``family``, so the order in ``family`` is at most ``bound.order``.
-    - ``proved``: maps the labels of other families to proved orders. Conditions that follow from these
+    - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search stops at ``bound.order``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.

@@ -24,16 +24,16 @@ UNCLAIMED = "unclaimed"
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The orders of the embedded method, which estimates the error.
+    """The orders of the embedded method.
 
-    The embedded method uses the stages of the main method. Its last update has different weights or
-    exponentials.
+    The embedded method estimates the error. The embedded method uses the stages of the main method, but has
+    different weights or exponentials in the last update.
 
     - ``own`` is the label of the family in which the order is claimed: ``rk`` for an update with weights, and
       ``cf`` for an update with exponentials.
     - ``claimed`` is the claimed order in the family ``own``.
     - ``orders`` maps the labels of families to the computed orders of the embedded method.
-    - ``certificates`` maps the labels of families to the certificates of these orders.
+    - ``certificates`` maps the labels of families to the certificates of the orders in ``orders``.
     - ``failing`` contains the failing conditions of order ``orders[own] + 1`` in the family ``own``.
     """
 
@@ -216,7 +216,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the entry of this tableau in the JSON output of ``orderconds check``."""
+        """Return the entry of the tableau in the JSON output of ``orderconds check``."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

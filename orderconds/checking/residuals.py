@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 RESOLUTION = Decimal("1e-3")
 """The bound that distinguishes the verdicts ``supported`` and ``undecided``.
 
-Suppose that the residual of a condition of order n is a ball that contains zero. If the radius of this ball
-is at most RESOLUTION/n!, the verdict is ``supported``.
+Suppose that the residual of a condition of order n is a ball that contains zero. If the radius of the ball is
+at most RESOLUTION/n!, the verdict is ``supported``, else ``undecided``.
 """
 
 BITS = 256
@@ -81,7 +81,7 @@ class Failure:
         return Decimal(self.decimal)
 
     def as_json(self) -> dict[str, object]:
-        """Return the entry of this condition in the JSON output of ``orderconds check``."""
+        """Return the entry of the failing condition in the JSON output of ``orderconds check``."""
         return {
             "order": self.condition.order,
             "tree": self.condition.tree,
@@ -115,9 +115,9 @@ def judge(
     The verdict on a condition is ``zero``, ``fails``, ``supported`` (the residual is a narrow ball that
     contains zero) or ``undecided`` (the residual is a wide ball that contains zero).
 
-    If ``balls_first`` is true and ``ring`` is a number field, residuals are first enclosed in balls. This is
-    faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the largest
-    absolute residual is appended to the list ``sizes``.
+    If ``balls_first`` is true and ``ring`` is a number field, residuals are first enclosed in balls. Balls
+    are faster if most conditions fail. If the residuals in ``ring`` are balls and no condition fails, the
+    largest absolute residual is appended to the list ``sizes``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))

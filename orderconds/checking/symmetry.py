@@ -1,10 +1,10 @@
-"""The order to which a method is symmetric. It is computed from the composition of two steps: a step of size
-h, then a step of size -h.
+"""The order to which a method is symmetric.
 
-For a symmetric method, the composition is the identity. Another method is symmetric to order q if the
-composition differs from the identity by O(h^(q + 1)). The largest such q is odd and not smaller than the
-order p of the method. If this q is larger than p + 1, the method is called effectively symmetric (Shmelev,
-Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+The order is computed from the composition of two steps: a step of size h, then a step of size -h. For a
+symmetric method, the composition is the identity. Another method is symmetric to order q if the composition
+differs from the identity by O(h^(q + 1)). The largest such q is odd and not smaller than the order p of the
+method. If this q is larger than p + 1, the method is called effectively symmetric (Shmelev, Ebrahimi-Fard,
+Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations

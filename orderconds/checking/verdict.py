@@ -44,7 +44,7 @@ def check(
     """Compute the order of ``tableau`` in each family in which its file claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
-    - ``family``: check only this family, such as ``"vcg"`` or ``"rkmk(1)"``. A claim is not necessary.
+    - ``family``: the label of the only family to check, for example ``"rkmk(1)"``. A claim is not necessary.
     - ``order``: the least acceptable order. If ``order`` is given, the claimed orders are ignored.
     - ``complete``: the file must claim an order in each family of ``claimable_families(tableau)``.
     - ``certified``: every order must be proved.
@@ -230,7 +230,7 @@ order is None.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return additional families. Their orders can bound the orders in the families ``wanted``.
+    """Return additional families whose orders can bound the orders in the families ``wanted``.
 
     Return an empty list if each claimed or required order is below the search limit of its family. A search
     is then sufficient.
@@ -340,8 +340,8 @@ def _settled_by(
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
     """If ``facts`` proves the order, replace the certificate ``decimal`` (not proved) by ``ball`` (proved).
 
-    ``facts`` contains pairs (family, order). These orders follow from the equations in the table ``[proof]``
-    of the tableau file.
+    ``facts`` contains pairs (family, order). The equations in the table ``[proof]`` of the tableau file
+    imply the orders in the pairs.
     """
     if computed.certificate != "decimal" or not facts:
         return computed

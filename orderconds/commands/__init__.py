@@ -1,3 +1,4 @@
-"""The commands of ``orderconds``. The module of a command defines a click command named ``command``,
-which returns the exit status.
+"""The commands of ``orderconds``.
+
+The module of a command defines a click command named ``command``. The click command returns the exit status.
 """

@@ -55,7 +55,7 @@ def command(
     data = read_data(content, of, str(path), name or name_of(path))
     if name is not None:
         data["name"] = name
-    from_data(data, str(path))  # This line raises an error if the tableau is invalid.
+    from_data(data, str(path))  # Raise an error if the tableau is invalid.
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:

@@ -1,7 +1,7 @@
 """``orderconds list``: list families, tableaux, and objects of other packages.
 
 To list its own objects here, another package registers a function as an entry point in the group
-``orderconds.listings``. The function has no arguments. It returns one dictionary for each object, with the
+``orderconds.listings``. The function has no arguments and returns one dictionary for each object, with the
 keys "name" and "about". The value of "about" is a description in one line.
 """
 

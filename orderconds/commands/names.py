@@ -1,4 +1,4 @@
-"""Shell completion of the names that commands accept, such as families and tableaux."""
+"""Shell completion of names in commands, for example the names of families and tableaux."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # Write to the target of a symbolic link. The path returned here is a link only if links form a loop.
+        # Write to the target of a symbolic link. If ``target`` is still a link, links form a loop.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))

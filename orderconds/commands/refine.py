@@ -1,4 +1,4 @@
-"""``orderconds refine``: make the coefficients of a tableau exact, or compute more digits of them."""
+"""``orderconds refine``: make the coefficients of a tableau exact or more precise."""
 
 from __future__ import annotations
 

@@ -216,7 +216,7 @@ def _size(text: str | None) -> Fraction | None:
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts such as 1/0, which are not numbers. The size 0 is refused below.
+        # The pattern also matches texts that are not numbers, for example 1/0. The size 0 is refused below.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -2,11 +2,11 @@
 
 A Python file is executed only at the user's request. If a method is exported and imported again, its
 coefficients do not change, and rounded decimals keep all their digits. TOML and JSON keep every key of a
-file. The other formats omit the table ``[proof]``.
+file. All formats except TOML and JSON omit the table ``[proof]``.
 
 A number from another program is a double, a rounded decimal or exact:
 
-- A float in a NumPy archive is a double. A short binary fraction, such as 0.375, is exact instead.
+- A short binary fraction in a NumPy archive, for example 0.375, is exact. Other floats there are doubles.
 - A decimal with the digits of a printed double is a double.
 - Other decimals with at least 12 significant digits are rounded (suffix ``~``).
 - Shorter decimals are exact.
@@ -35,7 +35,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For each format, the module that reads and writes files of this format, and the suffix of the files."""
+"""For each format, the module that reads and writes the files, and the suffix of the files."""
 
 
 def export(data: Data, to: str) -> bytes:
@@ -70,7 +70,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
     If the file contains no name, the tableau gets the name ``name``. If the file contains embedded weights
     without their order, this function computes the order. Raises :class:`~orderconds.errors.InputError` if
-    the content cannot be read. The error message contains the text ``where``, such as the path of the file.
+    the content cannot be read. The error message contains the text ``where``, usually the path of the file.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -109,7 +109,8 @@ PYTHON = "sympy"
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
     """Return the tableau in a file. Return None for the suffix ``.toml`` and for an unknown suffix.
 
-    A tableau without a name is named after the file. A Python module is executed only if ``execute`` is true.
+    A tableau without a name is named after the file. If ``execute`` is true, a Python module is
+    executed. Otherwise the module is only parsed.
 
     >>> load_foreign("rk4.toml") is None
     True

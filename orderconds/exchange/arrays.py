@@ -44,7 +44,7 @@ MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
 """An imported decimal with at least this number of significant digits is rounded or a double.
 
-A shorter decimal, such as 0.5, is exact. See :func:`coefficient`.
+A decimal with fewer digits, for example 0.5, is exact. See :func:`coefficient`.
 """
 
 
@@ -89,7 +89,7 @@ def data_without_names(tableau: Tableau) -> Data:
     """Return a tableau as keys and values. The formula of a named number replaces the name.
 
     A number that the tableau defines as a root of a polynomial (``minpoly``) keeps its name. Fractions are in
-    lowest terms. Rounded coefficients have the same digits as in the file of the tableau.
+    lowest terms. Rounded coefficients keep the digits of the tableau file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))

@@ -1,6 +1,6 @@
-"""Write the texts of a tableau, such as its name, as comments of source files. A comment is one line.
+"""Write texts of a tableau, for example the name, as comments of source files. A comment is one line.
 
-A backslash is doubled. A line break or a control character becomes its Unicode code, such as ``\\u000a``.
+A backslash is doubled. A line break or a control character becomes a Unicode code, for example ``\\u000a``.
 The delimiters of C comments become ``*\\/`` and ``\\/*``.
 """
 

@@ -1,10 +1,10 @@
 """CSV tables, in one of two forms:
 
-- Named arrays: each line begins with the name of a vector or a matrix. The other cells contain the vector or
-  one row of the matrix.
+- Named arrays: each line begins with the name of a vector or a matrix. The other cells of the line contain
+  the vector or one row of the matrix.
 - A plain Butcher tableau, as in textbooks: for each stage i, one line contains c_i and row i of A. The next
-  line contains an empty cell and the weights b. One more line may contain an empty cell and embedded weights.
-  Other empty cells are zeros.
+  line contains an empty cell and the weights b. An additional line may contain an empty cell and embedded
+  weights. Other empty cells are zeros.
 
 Cells are separated by commas, semicolons or tabs. Comments (``#`` or ``%``) and a header are ignored.
 
@@ -35,7 +35,7 @@ from orderconds.tableau.file_format import Data
 NAMES = (*TEXTS, *ROWS, *MATRICES)
 """The names that the first cell of a CSV line can contain."""
 WEIGHTS = ("b", "embedded_b")
-"""In a plain Butcher tableau, a line of weights begins with one of these names or with an empty cell."""
+"""In a plain Butcher tableau, a line of weights begins with a name in WEIGHTS or with an empty cell."""
 
 Table = tuple[tuple[str, ...], ...]
 

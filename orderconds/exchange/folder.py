@@ -91,9 +91,9 @@ class Reason:
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return the reason to skip a file, or an empty text if the file must be read.
 
-    A damaged file must be read, because reading it shows the error to the user. Some files resemble a tableau
-    but contain no key of a tableau, such as a JSON file with a matrix under an unknown key. By default, the
-    result is a reason to skip these files. If ``strict`` is true, these files must be read.
+    A damaged file must be read, because reading it shows the error to the user. Some files, for
+    example a JSON file with a matrix under an unknown key, resemble a tableau but contain no key of a
+    tableau. By default, such files are skipped. If ``strict`` is true, such files must be read.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

@@ -1,6 +1,6 @@
-"""JSON files, which contain the same keys and values as a tableau file in TOML.
+"""JSON files with the keys and values of a tableau file in TOML.
 
-A short decimal, such as ``0.5``, is exact. A decimal with the digits of a printed double, such as
+A short decimal, for example ``0.5``, is exact. A decimal with the digits of a printed double, for example
 ``0.3333333333333333``, is a double. If the key ``family`` is missing, the names of the arrays determine the
 family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """

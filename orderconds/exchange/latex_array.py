@@ -1,6 +1,6 @@
 r"""Tableaux in LaTeX. The coefficients are in a Butcher tableau or in named matrices.
 
-A Butcher tableau is an array with lines, such as ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
+A Butcher tableau is an array with lines: ``\begin{array}{c|cc} ... \end{array}``. A named matrix has
 the form ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 

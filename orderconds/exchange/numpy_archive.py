@@ -2,8 +2,8 @@
 The array ``A_exact`` contains the exact values as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
-The array ``order`` contains the claimed order. It refers to the family of the tableau. The array ``claims``
-contains a text with claims such as ``rk=4``. These claims may refer to other families.
+The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains a
+text with claims in families, for example ``rk=4``.
 """
 
 from __future__ import annotations

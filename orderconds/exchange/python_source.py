@@ -1,11 +1,11 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
 The file is parsed, not executed. The function :func:`read` evaluates the assignments at the top level one
-after another. An assignment may contain lists, tuples, numbers, arithmetic, square roots and names from
-earlier assignments. It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and
-``fractions``. Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. Some statements
-cannot be evaluated. If such a statement may change an array of the tableau, the file is refused. With the
-option ``--execute``, :mod:`orderconds.exchange.python_module` executes the file.
+after another. An assignment may contain lists, tuples, numbers, arithmetic, square roots, names from
+earlier assignments, and constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
+Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. Some statements cannot be evaluated. If
+such a statement may change an array of the tableau, the file is refused. With the option ``--execute``,
+:mod:`orderconds.exchange.python_module` executes the file.
 """
 
 from __future__ import annotations
@@ -42,14 +42,14 @@ COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha"
 HINT = "write the numbers themselves, or execute the file with 'orderconds check --execute'"
 SAFE_FUNCTIONS = ("print", "len", "sum", "abs", "min", "max", "range", "round", "repr", "str")
 SAFE_METHODS = ("sum", "mean", "copy", "tolist", "transpose", "all", "any", "allclose", "isclose")
-"""Functions and methods that change none of their arguments. They have at most two positional arguments here,
-because a further argument may be the array in which NumPy stores the result."""
+"""Functions and methods that change none of their arguments. Except for ``print``, a call with more than two
+positional arguments is not safe, because NumPy may store the result in the third argument."""
 SAFE_KEYWORDS = ("axis", "dtype", "sep", "end", "precision", "dps")
 UNSAFE_NAMES = {
     *("exec", "eval", "compile", "globals", "locals", "vars", "setattr", "delattr"),
     *("builtins", "__builtins__", "__import__", "__dict__", "importlib", "modules"),
 }
-"""A statement with one of these names may change all variables."""
+"""A statement that contains a name in UNSAFE_NAMES may change all variables."""
 Definition: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
@@ -139,7 +139,7 @@ def _parsed(text: str, where: str) -> ast.Module:
 
 
 def _header(text: str) -> Arrays:
-    """Return the names and texts in the comments before the first statement, such as ``# name: heun``."""
+    """Return the names and texts in comments like ``# name: heun`` before the first statement."""
     entries: Arrays = {}
     for line in text.split("\n"):
         if line.strip() and not line.startswith("#"):
@@ -152,7 +152,8 @@ def _header(text: str) -> Arrays:
 def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
     """Yield the variables of an assignment, each with the expression on the right-hand side.
 
-    Nothing is yielded if an assignment has other targets than variables, such as ``A[0] = 1``.
+    If a target is not a variable, as in ``A[0] = 1``, nothing is yielded. If the target is a tuple, but the
+    right-hand side is not a tuple of the same length, nothing is yielded, either.
     """
     pairs: list[tuple[ast.expr, ast.expr]] = []
     if isinstance(statement, ast.Assign):
@@ -197,7 +198,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
-    # In ``A = B = [0]`` both variables are the same list, so each expression is evaluated only once.
+    # After ``A = B = [0]``, A and B are one list. Therefore each expression is evaluated only once.
     evaluated = {id(expression): values.value(expression) for _, expression in assigned}
     for _, expression in assigned:
         if _may_change(expression, values):
@@ -352,7 +353,7 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_script_part(statement: ast.If, values: Values) -> bool:
-    """Return True for ``if __name__ == "__main__":``. An import skips the body of this statement."""
+    """Return True for ``if __name__ == "__main__":``. An import skips the body of the ``if``."""
     return "__name__" not in values.known and ast.unparse(statement.test) in (
         "__name__ == '__main__'",
         "'__main__' == __name__",
@@ -360,8 +361,7 @@ def _is_script_part(statement: ast.If, values: Values) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return True on success, and False
-    otherwise."""
+    """Evaluate an assignment like ``A[1, 0] = 1/2`` to one entry. Return True on success, else False."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
