@@ -9,7 +9,7 @@ from types import ModuleType
 
 
 class _LazyPackage(ModuleType):
-    """A package that imports a module when an exported object from this module is first used."""
+    """A package that imports each of its modules when an exported object of the module is first used."""
 
     def __getattr__(self, name: str) -> object:
         homes = self.__dict__["_homes"]
@@ -19,8 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module as an attribute of its package. The module must not
-        # replace an exported object of the same name.
+        # The import system stores an imported module as an attribute of its package. If an exported object
+        # has the name of the module, the module must not replace the object.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 

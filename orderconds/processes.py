@@ -108,7 +108,7 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
     """Receive jobs from the parent process, run the jobs, and send the results to the parent process. An
     empty tuple instead of a job ends the function.
 
-    This is the main function of a worker process. The worker ignores Ctrl-C. After Ctrl-C, the parent process
+    Each worker process runs this function. The worker ignores Ctrl-C. After Ctrl-C, the parent process
     terminates its workers.
     """
     import threading
@@ -130,7 +130,7 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that can be sent to the parent process. A note contains the traceback of this process.
+    """Return an error that can be sent to the parent process. A note in the error contains the traceback.
 
     If ``error`` can be pickled, the result is ``error``. Otherwise the result is a RuntimeError with the type
     and the message of ``error``.

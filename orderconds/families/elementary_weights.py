@@ -135,7 +135,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # Leaves give the factors c_i. These factors come before the sums of larger branches.
+    # Leaves give the factors c_i. In the product, the factors c_i come before the sums of larger branches.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

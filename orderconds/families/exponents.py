@@ -36,7 +36,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return one function for each exponent of a method. The function of an exponent maps a word to the
     coefficient of the word in this exponent.
 
-    The functions are in the order in which the exponents act. They store their results.
+    The functions are in the order in which the exponents act. Each function stores its results.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

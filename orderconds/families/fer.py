@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The exponent F_1, which acts last, contains no commutators. All terms of the other
-    exponents are commutators.
+    """Fer methods. The exponent F_1 acts last and contains no commutators. All terms of the other exponents
+    are commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -65,8 +65,8 @@ class FerFamily(MagnusFamily):
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The exponent F_1, which acts last, must not contain commutators. All terms of the other exponents must
-        be commutators.
+        The exponent F_1 acts last and must not contain commutators. All terms of the other exponents must be
+        commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
@@ -82,9 +82,9 @@ class FerFamily(MagnusFamily):
     def exact(self, word: Word) -> Fraction:
         """Return the right-hand side of the condition of a word.
 
-        For a word that consists of one letter k, the right-hand side is 1/k. For a longer word, the
-        right-hand side is the coefficient of the word in the series log(exp(-F) Y). Here Y is the exact
-        flow, and F is the integral of A over one step.
+        For a word that consists of one letter k, the right-hand side is 1/k. Let Y be the exact flow and F
+        the integral of A over one step. For a longer word, the right-hand side is the coefficient of the
+        word in the series log(exp(-F) Y).
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 

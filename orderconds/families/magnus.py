@@ -3,11 +3,11 @@ combination of the values A_i = h A(c_i h) and of their brackets, where c_i are 
 
 If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... In the product
 A_j A_i, the factor A_i acts first. If a step is a product of several exponentials, Omega is the logarithm of
-this product.
+the product.
 
 Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... The
-condition states that the word has the same coefficient in Omega and in the Magnus expansion (Iserles,
-Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5).
+condition states that the coefficient of the word in Omega equals its coefficient in the Magnus expansion
+(Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5).
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a random product of exponentials, or of Cayley transforms. It has ``order`` factors."""
+        """Return a random product of ``order`` exponentials or ``order`` Cayley transforms."""
         return random_product(ring, generator, order, self.transform)
 
 
@@ -142,7 +142,7 @@ def node_sum(name: str, word: Word) -> Formula:
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the coefficient of ``word`` in a Lie element as a linear combination of the coefficients of
-    Lyndon words. This combination is the same for all Lie elements.
+    Lyndon words. The linear combination is the same for all Lie elements.
 
     With the shuffle product, each word is a polynomial in Lyndon words. In a Lie element, a shuffle product
     of two or more words has the coefficient zero. Therefore only the linear terms of the polynomial remain.

@@ -17,7 +17,7 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """A cache of the results of ``compute(method, ring)``. It keeps the last two computed results.
+    """A cache of the last two computed results of ``compute(method, ring)``.
 
     Methods and rings are compared by identity.
 

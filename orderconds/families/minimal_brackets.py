@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods, rewritten as programs with few brackets. The compiler emits such a program
 for a method of the family ``rkmk`` without truncation of dexpinv.
 
-The order of the program is checked with the order conditions of ``rkmk``. The left-hand sides of these
+The order of the program is checked with the order conditions of ``rkmk``. The left-hand sides of the
 conditions are coefficients of the Lie-Butcher series of the program.
 """
 
@@ -40,13 +40,13 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
         used."""
-        # The ring Enclosures computes with the balls themselves, which the coefficients of the program store
-        # in the attribute ``value``.
+        # The ring Enclosures computes with balls. Each coefficient of the program stores its ball in the
+        # attribute ``value``.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return a copy of this family, in which ``convert`` is applied to each coefficient of the
+        """Return a copy of this family. In the copy, ``convert`` is applied to each coefficient of the
         program."""
 
         def row(given: Row) -> Row:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 class Substitute(Struct, frozen=True):
     """A family whose conditions are checked in place of the conditions of another family. ``method`` is the
-    same method, converted to a tableau format that ``family`` reads."""
+    checked method, converted to a tableau format that ``family`` reads."""
 
     family: Family
     method: Method
@@ -75,8 +75,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Return True if ``substitute`` implies all conditions of order n. This is true if
-        ``substitute.method`` satisfies the conditions of order n of ``substitute.family``. Return False if
+        """Return True if ``substitute.method`` satisfies the conditions of order n of
+        ``substitute.family``. These conditions imply all conditions of order n. Return False if
         ``substitute`` is None."""
         if self.substitute is None:
             return False

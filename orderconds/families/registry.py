@@ -1,5 +1,5 @@
-"""The registry of families. It contains built-in families, families that a program registers, and families
-that installed packages provide by entry points."""
+"""The registry of families. The registry contains built-in families, families that a program registers, and
+families that installed packages provide by entry points."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Add the class of a family to the registry, and return this class. Commands and tableau files accept the
+    """Add the class of a family to the registry, and return the class. Commands and tableau files accept the
     name of a registered family. The function can be used as a decorator.
 
     An installed package adds a family by an entry point of the group ``orderconds.families``.
@@ -133,8 +133,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names of the families with order conditions. The methods of these families are given by
-    tableaux.
+    """Return the names of the families with order conditions. Tableaux define the methods of these
+    families.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -166,8 +166,8 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of the family ``name``. If the name is not registered, the function looks for it in
-    the entry points of installed packages.
+    """Return the class of the family ``name``. If the name is not registered, the function looks for the
+    name in the entry points of installed packages.
 
     Raises :class:`~orderconds.errors.UnknownName` if no family has this name.
 

@@ -3,11 +3,11 @@ left-hand sides of independent conditions.
 
 Two laws make conditions dependent.
 
-- The elementary weights phi(t) of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) for all
-  trees u and v. Here u o v is the tree u with v as an additional branch of the root (HLW VI.7.1).
-- The coefficients a(w) of the words w in a group-like series, such as the series of a Lie group method,
-  satisfy a(u) a(v) = a(u sh v). The shuffle product u sh v is a sum of words, and a(u sh v) is the sum of
-  their coefficients. Therefore the coefficients of Lyndon words determine all other coefficients
+- For trees u and v, let u o v be the tree u with v as an additional branch of the root. The elementary
+  weights phi of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) (HLW VI.7.1).
+- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v). The series of a
+  Lie group method is group-like. The shuffle product u sh v is a sum of words, and a(u sh v) is the sum of
+  the coefficients of these words. Therefore the coefficients of Lyndon words determine all other coefficients
   (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
@@ -31,8 +31,8 @@ monomial is a sorted tuple of keys. The dictionary maps each monomial to the coe
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 """A function that moves the root of a tree along each edge at the root. For each edge, the function yields
-three trees u, v, w. Without the edge, the tree consists of u, which contains the root, and of v. The tree w
-is v o u, which is v with u as an additional branch of the root."""
+three trees u, v, w. Without the edge, the tree consists of two trees: u contains the root, and v does not.
+The tree w = v o u is the tree v with u as an additional branch of the root of v."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -155,8 +155,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The product of the coefficients of ``factors`` is the coefficient of their shuffle product. This shuffle
-    # product contains ``repeated`` times ``word``, and lexicographically smaller words, which are known.
+    # The product of the coefficients of ``factors`` is the coefficient of their shuffle product. In the
+    # shuffle product, the factor of ``word`` is ``repeated``. All other words are lexicographically smaller.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

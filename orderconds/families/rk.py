@@ -1,5 +1,5 @@
-"""Runge-Kutta methods. For each rooted tree, the condition is that the elementary weight is 1/gamma. Here
-gamma is the density of the tree (HLW III.1, Thm 1.5)."""
+"""Runge-Kutta methods. For a rooted tree with density gamma, the condition is that the elementary weight is
+1/gamma (HLW III.1, Thm 1.5)."""
 
 from __future__ import annotations
 

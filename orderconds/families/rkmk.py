@@ -1,9 +1,9 @@
-"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. This
-inverse is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the power r
-of ad. The family ``rkmk`` does not truncate the series.
+"""Runge-Kutta-Munthe-Kaas methods. The methods use dexpinv, the inverse of the differential of exp. The
+function dexpinv is a power series in the operator ad. The family ``rkmk(r)`` truncates the series after the
+power r of ad. The family ``rkmk`` does not truncate the series.
 
 There is one condition for each Lyndon word over ordered trees. The left-hand side of the condition is a
-multiple of the coefficient of this word in the Lie-Butcher series of the method.
+multiple of the coefficient of the word in the Lie-Butcher series of the method.
 
 Let p be the order of the tableau as a Runge-Kutta method. If r >= 2 is even, let R = r + 1. Otherwise let
 R = r. A method of ``rkmk(r)`` has the order min(p, R + 2). For even r >= 2 the Bernoulli number B_{r+1} is
@@ -113,7 +113,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
         Without truncation of dexpinv, there is one independent condition for each rooted tree. A truncation
         of dexpinv adds one condition of order R + 3, where R is the number in the module docstring. A method
-        with this truncation cannot satisfy all conditions up to order R + 3. Its order is at most R + 2.
+        with truncation cannot satisfy all conditions up to order R + 3. The order of the method is at most
+        R + 2.
 
         The computation requires NumPy. If ``order`` is above :data:`RANKED`, return all :meth:`conditions`.
 
@@ -124,8 +125,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def remark(self, order: int) -> str:
         """Return a remark that explains why :meth:`conditions` returns more conditions than
-        :meth:`essential_conditions`. Up to order 2 both methods return the same conditions, and the remark is
-        empty.
+        :meth:`essential_conditions`. Up to order 2 both functions return the same conditions, and the remark
+        is empty.
         """
         if order < 3:
             return ""

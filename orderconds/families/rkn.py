@@ -4,12 +4,12 @@ brackets of T and V are zero.
 Let x and y be functions of q alone. Then [x,[T,y]] is also a function of q alone, because T is quadratic in
 p. Let F be the smallest set that contains V and, for all x and y in F, also [x,[T,y]]. All elements of F are
 functions of q alone, so [x,y] = 0 for all x and y in F. In the free algebra over T and V, the brackets [x,y]
-generate an ideal. For x != y, the shortest of these brackets is [V,[V,[V,T]]], up to the sign.
+generate an ideal. For x != y, the shortest bracket [x,y] is [V,[V,[V,T]]], up to the sign.
 
-The functionals that are zero on the ideal form a vector space. There is one condition for each functional in
-a basis of this space. A functional is a linear combination of words over T and V. The numbers of independent
-conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16
-(1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+A functional is a linear combination of words over T and V. The functionals that are zero on the ideal form a
+vector space. There is one condition for each functional in a basis of the vector space. The numbers of
+independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
+Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -128,8 +128,8 @@ class NystroemFamily(Family):
 
         The bound in this family is ``order``. The bound in the family ``splitting`` is min(``order``, 4).
 
-        Up to order three, this family and the family ``splitting`` have the same conditions, because the
-        relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. The order of a symmetric
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Up to order three, this
+        family and the family ``splitting`` therefore have the same conditions. The order of a symmetric
         method is even. Hence a symmetric splitting of order three has order four.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
@@ -188,7 +188,7 @@ def formula(functional: Functional) -> Formula:
 
 def _scale(functional: Functional) -> int:
     """Return the least positive integer factor that turns the coefficients of the left-hand side of a
-    condition into integers. Both sides of the condition are multiplied by this factor."""
+    condition into integers. Both sides of the condition are multiplied by the factor."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 

@@ -1,9 +1,9 @@
 """Symplectic Lie group integrators (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
 PhD thesis, NTNU Trondheim, 2014, Section 2.5).
 
-The family contains the same methods as ``vrkmk(0)``. They are variational Runge-Kutta-Munthe-Kaas methods.
-The identity replaces dexpinv, the inverse of the differential of exp. Hence a step computes no brackets, and
-the order is at most two. The methods with one stage are theta-methods.
+The methods are those of the family ``vrkmk(0)``: variational Runge-Kutta-Munthe-Kaas methods. The identity
+replaces dexpinv, the inverse of the differential of exp. Hence a step computes no brackets, and the order is
+at most two. The methods with one stage are theta-methods.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from orderconds.tableau.record import Tableau
 @register
 class SymplecticLieGroupFamily(VariationalMuntheKaas):
     """Symplectic Lie group integrators, given by tableaux (A, b) with non-zero weights. The conditions are
-    the same as in ``vrkmk(0)``.
+    those of the family ``vrkmk(0)``.
 
     >>> [len(SymplecticLieGroupFamily().conditions(n)) for n in (1, 2)]
     [1, 1]
@@ -47,8 +47,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. Tableau files do not state the order in the family ``slgi``, because the order in the
-        family ``vrkmk(0)`` is the same."""
+        """Return None: tableau files do not state the order in the family ``slgi``, because the methods of
+        ``slgi`` have the same order in the family ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

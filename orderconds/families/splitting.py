@@ -5,7 +5,7 @@ For two parts, one step of size h is ``... exp(b_2 h B) exp(a_2 h A) exp(b_1 h B
 rightmost flow acts first, so A acts first in each stage.
 
 There is one condition for each word over A, B, .... In the series of the exact flow, every word of n letters
-has the coefficient 1/n!. In the series of the step, the word must have the same coefficient (HLW III.5;
+has the coefficient 1/n!. In the series of the step, the word must have the coefficient 1/n!, too (HLW III.5;
 McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
@@ -43,7 +43,7 @@ MAX_PARTS = 6
 @register
 class SplittingFamily(WordFamily):
     """Splittings of a vector field into ``parts`` fields, called parts. A word is a sequence of the indices
-    0, 1, ... of the parts. The printed form of a word contains the letters A, B, ... for these indices.
+    0, 1, ... of the parts. In the printed form of a word, the letters A, B, ... replace the indices.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -91,7 +91,7 @@ class SplittingFamily(WordFamily):
             )
 
     def weigh(self, letter: int) -> int:
-        """Return the weight of a letter, which is 1 for every part of the splitting."""
+        """Return 1, the weight of every letter."""
         return 1
 
     def words(self, order: int) -> tuple[Word, ...]:
@@ -99,7 +99,7 @@ class SplittingFamily(WordFamily):
         return tuple(tuples(range(self.parts), repeat=order))
 
     def text(self, word: Word) -> str:
-        """Return a word as text, such as ``AAB``."""
+        """Return a word as text. The word (0, 0, 1) becomes ``AAB``."""
         return "".join(chr(ord("A") + letter) for letter in word)
 
     def exact(self, word: Word) -> Fraction:
@@ -110,7 +110,7 @@ class SplittingFamily(WordFamily):
         """Return the product of the factorials of the run lengths of ``word``. A run is a maximal block of
         equal letters.
 
-        Both sides of the condition of ``word`` are multiplied by this factor.
+        Both sides of the condition of ``word`` are multiplied by the product.
         """
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
@@ -140,7 +140,7 @@ class SplittingFamily(WordFamily):
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order in this family. The bound is the order in the family ``rkn``,
-        but at most 3. Up to order 3, both families have the same conditions."""
+        but at most 3. Up to order 3, the families ``splitting`` and ``rkn`` have the same conditions."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -148,7 +148,7 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label ``rkn`` if ``nystroem`` is true. Otherwise return the label of this family. The
+        """Return the label ``rkn`` if ``nystroem`` is true. Otherwise return the label of ``self``. The
         option ``--rkn`` sets ``nystroem``."""
         return "rkn" if nystroem else self.label()
 
@@ -196,8 +196,8 @@ def splitting_formula(word: Word) -> Formula:
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
             # The equal letters of a block belong to stage i, and the next block belongs to stage j. In each
-            # stage, A acts before B, B acts before C, and so on. Hence i = j is possible only if the two
-            # letters are in alphabetical order.
+            # stage, A acts before B, B acts before C, and so on. Hence i = j requires that the letter ``one``
+            # comes before the letter ``two`` in the alphabet.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)

@@ -4,10 +4,10 @@ is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 An edge of a tree that points away from the root gives a factor a_ij in the elementary weight. An edge that
 points to the root gives a factor ahat_ij. If another vertex becomes the root, no edge changes its direction.
 
-Let two trees differ only in the root, and let the two roots be neighbours. The elementary weights of these
-trees add up to a product of elementary weights of smaller trees, because b_i ahat_ij + b_j a_ji = b_i b_j. If
-the conditions of the smaller trees hold, the conditions of the two trees are equivalent. Therefore one
-condition suffices for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7).
+Let two trees differ only in the root, and let the two roots be neighbours. Because b_i ahat_ij + b_j a_ji =
+b_i b_j, the elementary weights of the two trees add up to a product of elementary weights of smaller trees.
+If the conditions of the smaller trees hold, the conditions of the two trees are equivalent. A free tree is a
+tree without a root. Therefore one condition suffices for each free tree (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -122,9 +122,9 @@ class SymplecticPartitionedFamily(Family):
         ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, ahat_ij
         equals a_ij, and the bound is p.
 
-        For all other tableaux, the bound is min(p, 2m + 1). Here m <= p/2 is the largest integer for which
-        Butcher's simplifying assumptions C(m) and D(m) hold. These assumptions also hold for ahat_ij (Jay
-        1996, for Lobatto pairs).
+        For all other tableaux, let m <= p/2 be the largest integer for which Butcher's simplifying
+        assumptions C(m) and D(m) hold. The bound is min(p, 2m + 1). The coefficients ahat_ij also satisfy
+        C(m) and D(m) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

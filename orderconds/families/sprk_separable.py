@@ -5,8 +5,8 @@ i and j. The weights b and bhat may differ, for example if the pair is equivalen
 
 There is one condition for each rooted tree whose vertices have two colours, one for p and one for q.
 Neighbouring vertices differ in colour, because H is separable. Let all conditions of lower order hold. If two
-trees differ only in the choice of the root, their conditions are equivalent. Therefore one condition suffices
-for each free tree, which is a tree without a root (Abia and Sanz-Serna 1993; HLW VI.7.2).
+trees differ only in the choice of the root, their conditions are equivalent. A free tree is a tree without
+a root. Therefore one condition suffices for each free tree (Abia and Sanz-Serna 1993; HLW VI.7.2).
 """
 
 from __future__ import annotations
@@ -113,8 +113,8 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
     """Raise :class:`~orderconds.errors.InputError` if the pair of tableaux (a, b) and (ahat, bhat) is not
     symplectic.
 
-    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. For coefficients that
-    are intervals, the error is raised only if one of these equations is proved to be false.
+    The pair is symplectic if b_i ahat_ij + bhat_j a_ji = b_i bhat_j for all i and j. If the
+    coefficients are intervals, the error is raised only if one of the equations is proved to be false.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

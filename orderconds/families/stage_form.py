@@ -13,7 +13,7 @@ from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
 Name = tuple[str, tuple[str, ...]]
-"""The name of a coefficient: a letter and indices, such as ``("a", ("2", "1"))``."""
+"""The name of a coefficient: a letter and indices. The name of a_21 is ``("a", ("2", "1"))``."""
 
 
 class StageForm(Struct, frozen=True):

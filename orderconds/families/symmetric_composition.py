@@ -109,7 +109,7 @@ class SymmetricCompositionFamily(CompositionFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if a tableau file can state an order of its method in this family.
 
-        The method must be a composition of a symmetric method. Its step sizes must form a palindrome. For
+        The method must be a composition of a symmetric method. The step sizes must form a palindrome. For
         any other method, the result is None.
         """
         method = tableau.method
@@ -146,9 +146,10 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
     # Let S be the series of one step. The step is symmetric, so the coefficient of a word of even weight in
-    # log(S) is zero. This coefficient is a sum over all ways to cut the word into m = 1, 2, ... pieces. Each
-    # summand is (-1)^(m+1)/m times the product of the coefficients of the m pieces in S. For m = 1, it is the
-    # coefficient of the word in S. Hence the coefficient in S is minus the sum of the summands with m > 1.
+    # log(S) is zero. The coefficient in log(S) is a sum over all ways to cut the word into m = 1, 2, ...
+    # pieces. Each summand is (-1)^(m+1)/m times the product of the coefficients of the m pieces in S. The
+    # summand with m = 1 is the coefficient of the word in S. Hence the coefficient in S is minus the sum of
+    # the summands with m > 1.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

@@ -1,6 +1,6 @@
 """Symplectic Runge-Kutta methods. The coefficients satisfy b_i a_ij + b_j a_ji = b_i b_j for all i and j.
 
-There is one condition for each free tree, which is a tree without a root. If an edge divides a free
+A free tree is a tree without a root. There is one condition for each free tree. If an edge divides a free
 tree into two equal halves, the condition of the tree follows from conditions of lower order (Sanz-Serna
 and Abia 1991; HLW VI.7.1, Theorem 7.3).
 """
@@ -26,7 +26,7 @@ from orderconds.trees.rooted import rooted_trees
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
 """A function that expresses the elementary weight of a rooted tree as a polynomial in the elementary weights
 of independent trees. The independent trees are the free trees that no edge divides into two equal halves. One
-vertex of each independent tree is chosen as its root."""
+vertex of each independent tree is chosen as the root."""
 
 
 @register
@@ -51,7 +51,7 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of the given order. They belong to the free trees that no edge
+        """Return the independent conditions of the given order, one for each free tree that no edge
         divides into two equal halves."""
         return _conditions(essential_free_trees(order))
 

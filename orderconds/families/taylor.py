@@ -1,7 +1,7 @@
 """Taylor's method of degree P: each step evaluates the Taylor polynomial of the solution.
 
 Recurrences compute the coefficients of the polynomial (automatic differentiation). The method has no tableau.
-Its order is P for every vector field, so it has no order conditions.
+The order of the method is P for every vector field, so there are no order conditions.
 
 Source: A. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order
 Taylor methods*, Experimental Mathematics 14 (2005) 99.
@@ -23,7 +23,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work
 
 HIGHEST = 40
-"""The highest degree P. It is limited, because the size of the emitted code grows like P^2."""
+"""The highest degree P. The degree is limited, because the size of the emitted code grows like P^2."""
 
 
 @register
@@ -51,10 +51,7 @@ class TaylorFamily(Family):
         self.degree = degree
 
     def label(self) -> str:
-        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``.
-
-        If no degree is given, return ``taylor``.
-        """
+        """Return ``taylor(P)`` for the degree P. If no degree is given, return ``taylor``."""
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
@@ -90,8 +87,7 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a step of Taylor's method does not evaluate the vector field. It evaluates
-        recurrences instead."""
+        """Return None, because a step of Taylor's method evaluates recurrences and not the vector field."""
         return None
 
     def _unconditional(self) -> InputError:

@@ -1,11 +1,11 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
 Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The
-coefficients of a method are alpha_iJj and beta_Jj. They define the method by the following formulas:
+coefficients of a method are alpha_iJj and beta_Jj. The following formulas define the method:
 
 - The position of stage i is ``Q_i = exp(X_im) ... exp(X_i1) q0``. The number m may depend on i.
 - The exponents are ``X_iJ = h sum_j alpha_iJj xi_j`` for J = 1, ..., m.
-- The position after the step has the same form, with beta_Jj instead of alpha_iJj.
+- The formula for the position after the step is that for Q_i, with beta_Jj instead of alpha_iJj.
 - The weight of stage i is ``b_i = sum_J beta_Ji``.
 - The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``.
 
@@ -44,7 +44,7 @@ class VariationalCommutatorFree(ActionFamily):
 
     To find independent conditions, all conditions are evaluated for random methods. A random method has
     ``update`` exponentials in the update and ``stage`` exponentials in each stage. The default values grow
-    with the order. They are large enough to find one independent condition for each elementary Hamiltonian.
+    with the order and suffice to find one independent condition for each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]

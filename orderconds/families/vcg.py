@@ -2,8 +2,8 @@
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the methods. Proposition 3.5.7 states the six
-conditions of order 3. The module computes the conditions of all orders from the action series. This series is
-the expansion of the discrete action.
+conditions of order 3. The module computes the conditions of all orders from the action series, the
+expansion of the discrete action.
 """
 
 from __future__ import annotations

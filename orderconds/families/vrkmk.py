@@ -2,7 +2,7 @@
 differential of exp. The methods truncate this series after the power r of ad.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Let p be the order of the
-symplectic partitioned Runge-Kutta method with the same tableau.
+symplectic partitioned Runge-Kutta method with the tableau of the method ``vrkmk(r)``.
 
 For even r >= 2, the Bernoulli number B_(r+1) is zero, so r and r + 1 define the same method. Let R = r + 1
 for even r >= 2, and R = r for all other r. The order of ``vrkmk(r)`` is min(p, R + 2). For some r, this
@@ -61,7 +61,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
 
     def longest_word(self, key: Key) -> int:
         """Return the maximal length of the words from which the coefficient of the action tree ``key`` is
-        computed. The letters of these words are smaller trees."""
+        computed. The letters of the words are smaller trees."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 

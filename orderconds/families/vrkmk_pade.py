@@ -2,8 +2,8 @@
 invert the result.
 
 Let xi_i be the velocity of stage i, and let h be the step size. Let dexp^(r) be the series of dexp up to the
-power r of ad. The exponent of stage i is X_i = h sum_j a_ij v_j. Here v_j is the solution of the equation
-dexp^(r)(X_j) v_j = xi_j. Section 3.4.1 of Marthinsen's thesis describes this approach. Each action tree gives
+power r of ad. The exponent of stage i is X_i = h sum_j a_ij v_j. The equation dexp^(r)(X_j) v_j = xi_j
+defines v_j. Section 3.4.1 of Marthinsen's thesis describes this approach. Each action tree gives
 one condition. The left-hand side of the condition is the coefficient of the tree in the action series of the
 method.
 """

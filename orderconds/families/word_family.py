@@ -1,9 +1,10 @@
 """Families with one order condition for each word over an alphabet. Each letter of the alphabet has a weight.
 
-One step of a method and the exact flow are both expanded in series over words. In a word, the letters appear
-in the order in which they act. The coefficients of both series satisfy the shuffle relations. Therefore the
-coefficients of Lyndon words are independent and determine the coefficients of all words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1). The conditions of Lyndon words imply all other conditions.
+The step of a method is expanded in a series over words, and so is the exact flow. In a word, the letters
+appear in the order in which they act. The coefficients of both series satisfy the shuffle relations.
+Therefore the coefficients of Lyndon words are independent and determine the coefficients of all words
+(Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The conditions of Lyndon words imply all other
+conditions.
 """
 
 from __future__ import annotations
@@ -65,8 +66,8 @@ class WordFamily(Family):
         """
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words of weight ``order``. The conditions of these words are independent. The
-        conditions of Lyndon words imply the conditions of all words."""
+        """Return the Lyndon words of weight ``order``. The conditions of Lyndon words are
+        independent and imply the conditions of all words."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 

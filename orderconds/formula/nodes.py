@@ -34,7 +34,7 @@ class Formula(Struct, frozen=True):
     """A node of the syntax tree: Coefficient, Product, Power, Total or IndexSum."""
 
     def text(self) -> str:
-        """Return the formula in ASCII, such as ``sum_{i,j} b_i a_ij c_j``."""
+        """Return the formula in ASCII, for example ``sum_{i,j} b_i a_ij c_j``."""
         return _rendered(self, TEXT)
 
     def latex(self) -> str:

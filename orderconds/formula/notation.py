@@ -8,8 +8,8 @@ from fractions import Fraction
 from msgspec import Struct
 
 Relation = tuple[str, str, str]
-"""A relation ``("i", "<", "j")`` or ``("i", "<=", "j")`` between two indices of a sum. One of the two indices
-may be free."""
+"""A relation ``("i", "<", "j")`` or ``("i", "<=", "j")`` between two indices of a sum. One of i and j
+may be a free index."""
 
 HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\alpha", "beta": r"\beta"}
 HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
@@ -18,10 +18,10 @@ HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 class Notation(Struct, frozen=True):
     """The symbols and brackets of one notation, ASCII or LaTeX.
 
-    ``names`` maps names of coefficients to symbols, such as ``ahat`` to ``\\hat{a}``. ``total`` is the
+    ``names`` maps names of coefficients to symbols, for example ``ahat`` to ``\\hat{a}``. ``total`` is the
     summation sign. ``signs`` maps ``<`` and ``<=`` to their symbols.
 
-    A relation can be written in reverse order, such as ``j > i`` instead of ``i < j``. For this purpose,
+    A relation can be written in reverse order: ``j > i`` instead of ``i < j``. For the reverse order,
     ``reversed_signs`` maps ``<`` to the symbol for ``>``, and ``<=`` to the symbol for ``>=``.
     """
 

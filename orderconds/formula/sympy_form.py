@@ -73,7 +73,7 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
-    """Expand all sums in ``expression``, which is a result of :func:`export`.
+    """Expand all sums in ``expression``, a result of :func:`export`.
 
     The upper limits ``s`` and ``m`` of the sums are replaced by ``stages`` and ``exponentials``. SymPy's
     method ``doit`` is not used, because it does not expand sums with ``i < j``.

@@ -7,6 +7,6 @@ operator proves that the equations have exactly one solution in these intervals.
 the solution (:mod:`orderconds.proof.krawczyk`).
 
 In general, the system of equations contains every independent condition of a family. A reduction is a theorem
-by which some of these conditions follow from the others (:mod:`orderconds.proof.equations`). The module
+by which some conditions follow from the others (:mod:`orderconds.proof.equations`). The module
 :mod:`orderconds.proof.implications` derives the order in one family from orders in other families.
 """

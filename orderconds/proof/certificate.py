@@ -92,8 +92,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A key in the cache of proofs. Two keys are equal if they contain the same tableau object. Keys are
-    also equal if they contain equal tableaux from files with equal content."""
+    """A key in the cache of proofs. Two keys are equal if their tableaux are one object. Keys are also
+    equal if they contain equal tableaux from files with equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau

@@ -2,7 +2,7 @@
 satisfy the formulas of a tableau file.
 
 The left-hand side of each dependent condition is a polynomial in left-hand sides of independent conditions.
-The coefficients of this polynomial are computed modulo primes and then converted to fractions.
+The coefficients of the polynomial are computed modulo primes and then converted to fractions.
 
 Conditions that are independent over Q can be dependent modulo a prime. In this case, the polynomial is wrong.
 Therefore :class:`orderconds.proof.exact_member.ExactMember` verifies each polynomial in exact arithmetic.
@@ -36,8 +36,8 @@ SPARE = 24
 With fewer random methods, independent conditions could seem dependent by accident."""
 
 PRIME_BITS = 61
-"""The size, in bits, of the primes modulo which conditions are evaluated. A residue of this size fits in a
-machine word."""
+"""The size, in bits, of the primes modulo which conditions are evaluated. A residue modulo such a prime fits
+in a machine word."""
 
 MAX_PRIMES = 24
 """The maximal number of primes. A rational coefficient is reconstructed from its residues modulo several
@@ -91,8 +91,8 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions of a sub-family. Each suitable prime yields a new
-    result, which combines the residues modulo all suitable primes.
+    """Yield the independent and the dependent conditions of a sub-family. After each suitable
+    prime, the result combines the residues modulo all suitable primes so far.
 
     A prime is unsuitable if fewer conditions are independent modulo this prime than modulo another prime. At
     most :data:`MAX_PRIMES` primes are tried. ``candidates`` contains the conditions of each order. ``draws``
@@ -191,7 +191,7 @@ class _Value:
 
     - ``factors``: the conditions.
     - ``members``: the products of the left-hand sides, one for each random method of the sub-family.
-    - ``flow``: the product of the right-hand sides, which belong to the exact flow.
+    - ``flow``: the product of the right-hand sides. The right-hand sides belong to the exact flow.
     """
 
     factors: Monomial

@@ -2,14 +2,14 @@
 equations approximately. The coefficients of the method are the exact solution near the decimals.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
-reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
+reduction is a theorem that makes some equations unnecessary. The assumptions of a reduction are
 verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order of such a composition is even.
   Therefore only conditions of odd order are needed. There is one condition for each Lyndon word in the
   letters 1, 3, 5, ... (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.1-3.2). A
-  composition of midpoint rules has the same order in other families, such as ``rk`` and ``cg``
-  (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+  composition of midpoint rules has the same order in the families ``rk`` and ``cg``, for example (Bogfjellmo
+  and Marthinsen, Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: each condition is defined by a word. Up to order 2s,
   words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a scheme with two registers (2N scheme). The order on a group is equal to the order on a
@@ -19,8 +19,8 @@ verified exactly, from the formulas in the file and not from the decimals:
 - ``spelling``: some coefficients are formulas in other coefficients. The formulas define a sub-family of
   methods, in which some conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-A 2N scheme may contain an embedded method, which applies one additional exponential. The equations for the
-embedded method are the conditions of rooted trees (docs/explanation/two_registers.md).
+A 2N scheme may contain an embedded method. The embedded method applies one additional exponential.
+The equations for the embedded method are the conditions of rooted trees (docs/explanation/two_registers.md).
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class Equations:
         """Return the left-hand side minus the right-hand side of each equation. ``point`` contains the values
         of the unknowns. The values are elements of ``ring``.
 
-        If ``places`` is given, only the equations with these indices are evaluated.
+        If ``places`` is given, only the equations with the indices in ``places`` are evaluated.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, embedded = self.proof.over(ring, values)
@@ -209,8 +209,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the order conditions that remain after the reduction ``spelling``. These order conditions and
-    the formulas in the tableau file imply all conditions up to the order in ``proof``."""
+    """Return the order conditions that remain after the reduction ``spelling``. Together with the
+    formulas in the tableau file, these order conditions imply all conditions up to the order in ``proof``."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -277,7 +277,7 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     unknowns.
 
     ``values`` contains one jet for each equation. A jet encloses the value and the gradient of the equation
-    over a box by balls. If one of these balls does not contain zero, the equation is not an identity. All
+    over a box by balls. If a ball of the jet does not contain zero, the equation is not an identity. All
     other equations are evaluated exactly, with random numbers for the unknowns
     (:mod:`orderconds.tableau.random_member`).
 

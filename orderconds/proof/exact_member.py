@@ -1,7 +1,7 @@
 """Exact verification that the left-hand side of one order condition is a polynomial in the left-hand sides of
 other conditions. The left-hand sides are evaluated at one random method.
 
-The formulas in a tableau file define a sub-family of methods. A *member* is a method of this sub-family.
+The formulas in a tableau file define a sub-family of methods. A *member* is a method of the sub-family.
 Random members are constructed in :mod:`orderconds.tableau.random_member`. If the only radical in the file is
 sqrt(d), the coefficients of a random member are in Q(sqrt(d)). Otherwise the coefficients are rational.
 """
@@ -32,7 +32,7 @@ Reading = Callable[[Method, Ring], Method]
 evaluates its conditions. The arguments are the method and the ring of the coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
-"""The product of the left-hand sides of several conditions, represented by the tuple of these conditions."""
+"""A product of left-hand sides of conditions, represented by the tuple of the conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A polynomial in the left-hand sides of conditions, as a map from monomials to coefficients. A pair (x, y)
@@ -46,7 +46,7 @@ class Surd:
 
     - ``radicand``: the rational number under the root.
     - ``ring``: the field Q(sqrt(d)), where d is the radicand.
-    - ``root``: the element sqrt(d) of this field.
+    - ``root``: the element sqrt(d) of the field ``ring``.
     """
 
     radicand: Fraction
