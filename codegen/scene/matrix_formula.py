@@ -36,8 +36,8 @@ class MatrixFormula:
     rows: int
     columns: int
     __array_ufunc__: ClassVar[None] = None
-    """This value makes NumPy use the operators of this class, for example in ``array * formula``. By default,
-    NumPy would apply ``*`` to each entry of the array."""
+    """The value None makes NumPy use the operators of MatrixFormula, for example in ``array * formula``. By
+    default, NumPy would apply ``*`` to each entry of the array."""
 
     @property
     def T(self) -> MatrixFormula:
@@ -72,7 +72,7 @@ class MatrixFormula:
 
 @dataclass(frozen=True, eq=False)
 class Unknown(MatrixFormula):
-    """The unknown matrix X, which is the state of the scene."""
+    """The unknown matrix X: the state of the scene."""
 
     rows: int
     columns: int
@@ -82,8 +82,8 @@ class Unknown(MatrixFormula):
 class Constant(MatrixFormula):
     """A constant matrix.
 
-    If ``diagonals`` is not None, it maps the offset of each diagonal to the entries of this diagonal.
-    Otherwise ``entries`` contains all entries of the matrix.
+    A banded matrix has ``diagonals``, a mapping from the offset of each diagonal to the entries of the
+    diagonal. If ``diagonals`` is None, ``entries`` contains all entries of the matrix.
     """
 
     rows: int
@@ -138,7 +138,7 @@ class Times(MatrixFormula):
 
 
 def unknown(rows: int, columns: int) -> Unknown:
-    """Return the symbol X for the state of a :class:`codegen.scene.StiefelScene`, which is a matrix."""
+    """Return the symbol for the unknown matrix X: the state of a :class:`codegen.scene.StiefelScene`."""
     _size(rows, "rows")
     _size(columns, "columns")
     return Unknown(rows, columns)
@@ -180,7 +180,7 @@ def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
 
 
 def _sized(formula: MatrixFormula, rows: int, columns: int) -> None:
-    # The formulas are frozen dataclasses, which do not permit the assignment ``formula.rows = rows``.
+    # A frozen dataclass does not permit the assignment ``formula.rows = rows``.
     object.__setattr__(formula, "rows", rows)
     object.__setattr__(formula, "columns", columns)
 

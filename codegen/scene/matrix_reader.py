@@ -72,7 +72,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A computed value. If ``transposed`` is True, ``matrix`` contains the transpose of this value."""
+    """A computed value: ``matrix``, or the transpose of ``matrix`` if ``transposed`` is True."""
 
     matrix: Matrix
     transposed: bool = False
@@ -230,7 +230,10 @@ class _Compiler:
         return Matrix(f"value {len(self.body) + 1}", rows, columns)
 
     def product(self, factors: tuple[_Factor, ...]) -> _Stored:
-        """Return the product of the factors. Append statements only at the first call with these factors."""
+        """Return the product of the factors.
+
+        The first call with given factors appends statements. Later calls return the stored product.
+        """
         if factors not in self.known:
             self.known[factors] = self._product(factors)
         return self.known[factors]
@@ -386,9 +389,9 @@ def _transposed(given: Constant) -> Constant:
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
     """Return the entries of the diagonal ``-offset`` of A^T, where A is a matrix.
 
-    ``entry`` contains the entries of the diagonal ``offset`` of A. The entry of this diagonal in the row i of
-    A^T is in the row i - offset of A. Therefore a function f of the row becomes f(i - offset). Lists and
-    scalars stay unchanged.
+    ``entry`` contains the entries of the diagonal ``offset`` of A. The row i of A^T contains an entry from
+    the row i - offset of A. Therefore a function f of the row becomes f(i - offset). Lists and scalars stay
+    unchanged.
     """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
@@ -407,7 +410,8 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
     matrix = ConstantMatrix(name, given.rows, given.columns)
     diagonals = []
     # The main diagonal comes first, because it has an entry in every row of a square matrix. Emitted code
-    # can set each row of a product to the contribution of this diagonal, and add the other contributions.
+    # can set each row of a product to the contribution of the main diagonal, and then add the contributions
+    # of the other diagonals.
     for offset in sorted(given.diagonals, key=lambda x: (abs(x), x)):
         length = matrix.length(Diagonal(offset, ()))
         entry = _entry(reader, given.diagonals[offset], (row,), length, f"the diagonal {offset}")

@@ -400,8 +400,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the Lie algebra of the group.
 
-    For n x n matrices the result has n^2 rows and n^2 columns. It is multiplied by the vector of the n^2
-    entries of a matrix, listed row by row. The product contains the entries of the projected matrix.
+    For n x n matrices the result has n^2 rows and n^2 columns. Let v be the vector of the n^2 entries of a
+    matrix, row by row. The product of the result and v contains the entries of the projected matrix.
     """
     from sympy import Matrix, Rational
 

@@ -101,7 +101,7 @@ class Orbit:
         return start
 
     def values(self, roots: Sequence[Expr], values: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...] | None:
-        """Return the values of the formulas ``roots``, or None if one of them cannot be evaluated."""
+        """Return the values of the formulas ``roots``, or None if a formula cannot be evaluated."""
         try:
             return tuple(evaluate(roots, self.domain, values))
         except (ArithmeticError, ValueError):

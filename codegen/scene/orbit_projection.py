@@ -20,8 +20,9 @@ REDUCED = 1e-2
 """The tolerance of the test :func:`reaches_orbit`.
 
 The test displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and projects the displaced
-point. After the projection, the perpendicular displacement must be at most REDUCED * DISPLACEMENT. It need
-not be zero, because the orbit may deviate from its tangent space by about DISPLACEMENT^2.
+point. After the projection, the perpendicular displacement must be at most REDUCED * DISPLACEMENT. The
+perpendicular displacement need not be zero: at the distance DISPLACEMENT, the orbit may deviate from its
+tangent space by about DISPLACEMENT^2.
 """
 
 INDEPENDENT = 1e-8
@@ -55,7 +56,7 @@ def orbit_is_open(problem: Problem) -> bool:
     """Return True if the orbit of the initial state is an open set of the space of coordinates.
 
     The orbit is open if the dimension of its tangent space is the number of coordinates. For example, the
-    orbits of SO(2) in the plane are circles, which are not open.
+    orbits of SO(2) in the plane are circles. A circle is not open in the plane.
     """
     field = problem.as_field()
     start = tuple(map(float, field.initial(FloatDomain(0.0))))

@@ -1,4 +1,4 @@
-"""Parameters and signals of scenes, which are sympy symbols.
+"""Parameters and signals: two kinds of sympy symbols in the formulas of scenes.
 
 A parameter has a rational default value. A signal has a default formula in the time and in parameters.
 """
@@ -13,8 +13,8 @@ from codegen.ir.number import is_normal
 
 
 class Parameter(sympy.Symbol):  # type: ignore[misc]
-    """A real symbol with the default value p/q. Parameters with the same name but different default values
-    are different symbols.
+    """A real symbol with the default value p/q. Two parameters with one name and different default
+    values are different symbols.
 
     >>> Parameter("beta", 1) == Parameter("beta", 1), Parameter("beta", 1) == Parameter("beta", 2)
     (True, False)
@@ -56,7 +56,7 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    A float denotes the decimal number that Python prints for it: 0.1 is 1/10. Emitted code contains the
+    A float denotes the decimal number that Python prints: 0.1 is 1/10. Emitted code contains the
     default as a constant. With the option ``emit --parameter NAME``, the parameter is an argument of emitted
     code instead. :class:`SceneError` is raised if the default is not rational, or too large or too
     small for a normal double.

@@ -1,4 +1,4 @@
-"""Problems: the internal form of scenes, which the interpreter and the compiler use.
+"""Problems: the form of scenes that the interpreter and the compiler use.
 
 The sympy formulas of a scene are converted to exact expressions that share equal subexpressions. Derivatives
 are computed by reverse differentiation. The expressions can be evaluated in several number domains, such as
@@ -199,7 +199,7 @@ class Problem:
         """Return a Hamiltonian problem as an equation y' = f(y).y, where y = (q, mu) and f = (xi, n).
 
         The equations of the problem are q' = xi.q and mu' = n - ad*_xi mu. The group of the result is T*G,
-        which acts on itself by left multiplication. If the state is not (q, mu), the problem is returned
+        and T*G acts on itself by left multiplication. If the state is not (q, mu), the problem is returned
         unchanged.
         """
         if not self.paired:
@@ -317,7 +317,8 @@ class Problem:
         If the state is (q, mu), the equations are q' = xi.q and mu' = n - ad*_xi mu, and the field is the
         pair (xi, n). Otherwise the equation is y' = f(y).y, and the field is f.
 
-        ``args`` contains the blocks of the state. The time may follow as the last entry. Its default is 0.
+        ``args`` contains the blocks of the state. The time may follow as the last entry. By default the
+        time is 0.
         """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)

@@ -45,7 +45,7 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
         problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
     )
     if fixed:
-        # On a lattice, the formulas of the scene are checked at one site. Its neighbours have fixed states.
+        # On a lattice, the formulas of the scene are checked at one site with fixed neighbours.
         check_problem(changed if changed.sites is None else with_frozen_neighbours(changed), {})
     return changed
 

@@ -34,8 +34,8 @@ class Semilinear:
     - ``formulas``, ``outer``: formulas g_i and orders m_i. N is the sum over i of the x-derivatives of g_i of
       order m_i. A formula g_i may contain u and derivatives of u.
     - ``inner``: for each derivative of u in ``formulas``, its order and its symbol.
-    - ``kept``: a fraction. This fraction of the Fourier modes of N is kept. The modes with the highest wave
-      numbers are replaced by zero.
+    - ``kept``: the fraction of the Fourier modes of N that is kept. The other modes, with the highest wave
+      numbers, are replaced by zero.
     - ``timed``: True if N depends on the time.
     """
 
@@ -79,10 +79,10 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return the model problem u' = -u/2 + N(u) for one number u. It serves to test the compiler passes.
+    """Return the model problem u' = -u/2 + N(u) for one number u. The compiler passes run on the model.
 
-    If the nonlinear term of the scene depends on the time, N(u) is u^2 + t. Otherwise N(u) is u^2. One model
-    suffices, because the operations of a step are the same for all L and all N.
+    If the nonlinear term of the scene depends on the time, N(u) is u^2 + t. Otherwise N(u) is u^2. The
+    operations of a step do not depend on the values of L and N, so one model suffices.
     """
     assert scene.semilinear is not None
     (block,) = scene.state

@@ -56,19 +56,19 @@ def SemilinearScene(
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
-      and parameters. It may be complex; for example, the factor of d/dx is I*k.
+      and parameters. The factor may be complex; for example, the factor of d/dx is I*k.
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m). Here g is a formula in these symbols and derivatives, and c does not depend on u and x.
+      c Dx(g, m). Here g is a formula in u, Dx(u, m), x, t and parameters. c depends on neither u nor x.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
-    - ``dealias``: a fraction. This fraction of the Fourier modes of N is kept. True means 2/3, False means 1.
+    - ``dealias``: the fraction of the Fourier modes of N that is kept. True means 2/3, False means 1.
 
     Emitted code computes with the values of u at n equally spaced points. The number n is a run-time
-    argument. Explicit methods of the families rkmk, cf and cg are possible. They use the affine maps
-    u -> exp(t L) u + c as the group action, so they are exponential integrators.
+    argument. Explicit methods of the families rkmk, cf and cg are possible. These methods act on u by
+    affine maps u -> exp(t L) u + c, and are therefore exponential integrators.
 
     :class:`SceneError` is raised if L does not map real functions to real functions, or if a formula g
-    contains derivatives other than those of ``u``. It is also raised if a formula contains an unknown symbol
-    or a choice between formulas, such as Piecewise.
+    contains derivatives other than those of ``u``. Another reason for SceneError is an unknown symbol in
+    a formula, or a choice between formulas, for example Piecewise.
     """
     parser = _Parser(name, u, k, x)
     reader, symbol = parser.reader, parser.symbol(L)
@@ -201,7 +201,7 @@ class _Parser:
         return root
 
     def start(self, u0: sympy.Expr) -> Expr:
-        """Return the formula of the initial state, which may contain only x and parameters."""
+        """Return the formula of the initial state. The formula may contain only x and parameters."""
         root = self.pointwise(u0, "u0", (self.x,))
         if any(n.op == "sym" and n.payload == TIME for n in walk([root])):
             raise SceneError("u0 contains t", where=self.name, expected="a formula in x and parameters")

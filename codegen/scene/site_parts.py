@@ -3,7 +3,7 @@ couples pairs of neighbours.
 
 A part is given by an element f(y) of the Lie algebra. The generators of the part are formulas for the
 components of f(y). The dot denotes the action of the group or of its Lie algebra on states y. A part
-contributes f(y).y to the velocity of a site. The velocity of the site is the sum of these contributions.
+contributes f(y).y to the velocity of a site. The sum over all parts is the velocity of the site.
 
 The generators must be constant along the solutions of y' = f(y).y. The exact flow of the part over a time tau
 is then y -> exp(tau f(y)).y.
@@ -37,7 +37,7 @@ class Pair:
     """The interaction of the sites i and i + offset.
 
     ``first`` contains the generators of site i, and ``second`` contains the generators of site i + offset.
-    The generators of a site are the components of an element of the Lie algebra. They are formulas in the
+    The generators of a site are the components of an element of the Lie algebra, as formulas in the
     coordinates of both sites.
     """
 
@@ -110,7 +110,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and the time derivatives of these coordinates."""
+    """Return the coordinates of the sites of a part, and their derivatives along the flow of the part."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -196,8 +196,8 @@ def _with_outside(
 ) -> dict[str, mpmath.mpf]:
     """Return the values of all symbols in the field of a site.
 
-    The neighbours with the offsets ``absent`` are outside the lattice. Their states are computed by the
-    formulas in the argument ``outside`` of the scene.
+    The neighbours with the offsets ``absent`` are outside the lattice. The formulas in the argument
+    ``outside`` of the scene give the states of these neighbours.
     """
     values = dict(point)
     for k, offset in enumerate(sites.offsets):

@@ -61,7 +61,7 @@ def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
     - An entry of the offset is not an integer.
     - The absolute value of an entry is greater than MOST_DISTANCE.
     - The offset has more than MOST_DIMENSIONS entries.
-    - All entries are zero. This is the offset of the site itself.
+    - All entries are zero. (The zero offset is that of the site itself.)
 
     >>> S = sympy.Matrix(sympy.symbols("S0:3", real=True))
     >>> neighbour(S, (1,)).T
@@ -144,7 +144,8 @@ class Sites:
         """Return the share of a site in the total energy. The shares of all sites add up to the total energy.
 
         The share contains the energy of the site. If both sites of a bond exist, the share contains one half
-        of the energy of the bond. If the neighbour is missing, the share contains all of it.
+        of the energy of the bond. If the neighbour is missing, the share contains the whole energy
+        of the bond.
 
         ``exists`` has one entry for each offset: true or 1 if the neighbour exists, false or 0 if it is
         missing.

@@ -1,8 +1,8 @@
-"""Static coordinates: coordinates of the state that do not change. They act as parameters.
+"""Static coordinates: coordinates of the state that do not change, like parameters.
 
 Let y0 be the initial state, and assume that the field f reads only the time and static coordinates. The
 solution then satisfies a linear equation y' = A(t).y, and methods for linear equations are possible. Here
-A(t) = f(y0, t) is an element of the Lie algebra, and the dot denotes its action on y. On a lattice, f may
+A(t) = f(y0, t) is an element of the Lie algebra, and the dot denotes the action on y. On a lattice, f may
 also read static coordinates of neighbours, because these coordinates are constant.
 """
 

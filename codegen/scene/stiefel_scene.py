@@ -54,13 +54,13 @@ def StiefelScene(
     """Return the scene X' = V(X) for n x k matrices X with orthonormal columns.
 
     - ``x``: the unknown (:func:`codegen.scene.matrix_formula.unknown`).
-    - ``velocity``: the formula V. It must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns.
+    - ``velocity``: the formula V. V must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns.
     - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
     - ``span``: the ends of the time interval, two rational numbers.
 
     The equation is X' = A X with the skew-symmetric generator A = W X^T - X W^T, where W = V - X (X^T V)/2. A
-    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. The
-    length of emitted code depends on n only if V contains a matrix as a list of entries.
+    step of a method of the families rkmk, cf and cg costs O(n k^2) operations and the evaluations of V. If
+    no matrix in V is given by a list of entries, the length of emitted code does not depend on n.
 
     :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
     velocity that is not tangent.

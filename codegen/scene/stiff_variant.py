@@ -1,6 +1,6 @@
 """Stiff variants of a scene. A variant has a very short time scale, or its solution comes near a singularity.
 
-The file of a gallery scene may define the function ``stiff_variants()``, which returns a list of variants.
+The file of a gallery scene may define a function ``stiff_variants()`` that returns a list of variants.
 The command ``orderconds stability`` measures the order of each method on each variant.
 """
 
@@ -22,7 +22,7 @@ class StiffVariant:
     """A stiff variant of a scene.
 
     - ``name``: the name of the variant.
-    - ``about``: a phrase that describes why the problem is stiff, such as "frequency 1e+03".
+    - ``about``: a phrase that describes why the problem is stiff, for example "frequency 1e+03".
     - ``scene``: the problem.
     - ``rate``: the fastest rate of the problem, the reciprocal of its shortest time scale.
     """

@@ -70,7 +70,7 @@ def table(
     """Return a formula in ``x`` for use in a scene. The formula has the value ys[k] at x = xs[k].
 
     The numbers in ``xs`` must increase. Coefficients are computed exactly from the given numbers. A float
-    denotes the decimal number that Python prints for it.
+    denotes the decimal number that Python prints: 0.1 is 1/10.
 
     - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
       ``linear``.
@@ -161,8 +161,8 @@ def _joined(
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
     # A piecewise polynomial needs a knot. Usually the inner points of the table are the knots. A table with
-    # two points has no inner point, so its first point becomes the knot, with the same polynomial on both
-    # sides.
+    # two points has no inner point. Then the first point is the knot, and the polynomial is the same on
+    # both sides.
     knots, starts = (xs[1:-1], xs[:-1]) if len(xs) > 2 else (xs[:1], (xs[0], xs[0]))
     return PiecewisePolynomial(tuple(knots), tuple(starts), tuple(rows if len(xs) > 2 else rows * 2))
 

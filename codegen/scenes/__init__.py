@@ -95,9 +95,9 @@ _REGISTERED: dict[str, tuple[Problem, str]] = {}
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
-    """Register a scene under a name, and return the scene with this name.
+    """Register a copy of the scene with the name ``name``, and return the copy.
 
-    All commands of this process accept the name. ``about`` describes the scene in reports. If the name is
+    In this process, all commands accept the name. ``about`` describes the scene in reports. If the name is
     already registered, the new scene replaces the old scene. :class:`SceneError` is raised for an object that
     is not a scene, for the name of a built-in scene, and for a name that is not an identifier. A scene in a
     Python file needs no registration: commands accept the path of the file as a name.
@@ -154,7 +154,7 @@ def load(name: str) -> Problem:
 
 
 def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
-    """Return ``scene`` itself if it is a problem. Otherwise return the scene with this name or path.
+    """Return the argument if it is a problem. Otherwise return the scene with the name or path ``scene``.
 
     >>> problem_of("dipole").name
     'dipole'
@@ -174,7 +174,7 @@ def with_one_system(scene: Problem) -> Problem:
     """Return ``scene`` if it has a fixed number of coordinates.
 
     :class:`SceneError` is raised for a chain or lattice, because the scene does not fix the number of sites.
-    It is also raised for a semilinear equation with any number of grid points.
+    A semilinear scene that does not fix the number of grid points raises SceneError, too.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -257,7 +257,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    # This call raises a SceneError for a very large file, before the file is executed.
+    # For a very large file, ``read_bytes`` raises a SceneError before the file is executed.
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.

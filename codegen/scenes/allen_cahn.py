@@ -8,8 +8,9 @@ the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) 
 methods are exponential integrators, too. The bracket of (A1, c1) and (A2, c2) has the translation
 A1 c2 - A2 c1. The thesis prints this translation with an additional term c1.
 
-A method with negative coefficients, such as ``cg3``, integrates diffusion backwards in time in a part of each
-step. Backward diffusion amplifies all errors. With long steps, such a method gives no correct digit.
+Some methods, for example ``cg3``, have negative coefficients. In a part of each step, such a method
+integrates diffusion backwards in time. Backward diffusion amplifies all errors. With long steps, such a
+method gives no correct digit.
 """
 
 from sympy import Matrix, Rational, symbols

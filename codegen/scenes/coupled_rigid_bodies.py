@@ -1,7 +1,7 @@
 """Two free rigid bodies coupled by a ball joint, on T*(SO(3) x SO(3)).
 
-The common centre of mass of the two bodies is at rest. The joint is at the point d_k of body k, and d_k lies
-on a principal axis of this body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k
+The common centre of mass of the two bodies is at rest. The joint is at the point d_k of body k, on a
+principal axis of the body. Body k has the inertia J_k, the attitude g_k, and the angular momentum P_k
 in the body frame. The reduced mass of the two bodies is eps. The Hamiltonian is
 
     H = (sum_k P_k.w_k - b.S^-1 b)/2,    w_k = J_k^-1 P_k,    b = g_2 (w_2 x d_2) - g_1 (w_1 x d_1),

@@ -7,9 +7,9 @@ h = 0.01 on the interval (0, 1000). With the minus sign these errors are 1.0e-3 
 sign they are 1.0e-4 and 1.3e-9.
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. On R^n, a VRKMK method is a partitioned
-Runge-Kutta method. Let p be the order of this partitioned method. By Theorem 3.5.3, the order of VRKMK(r) is
-the smaller of p and r + 2. For even r >= 2, the order is the smaller of p and r + 3, because the power r + 1
-of ad has the coefficient zero. For example, r = 2 suffices for order 5, and r = 4 suffices for order 7.
+Runge-Kutta method. Let p be the order on R^n. By Theorem 3.5.3, the order of VRKMK(r) is the smaller of p and
+r + 2. For even r >= 2, the order is the smaller of p and r + 3, because the power r + 1 of ad has the
+coefficient zero. For example, r = 2 suffices for order 5, and r = 4 suffices for order 7.
 """
 
 import math
@@ -119,6 +119,6 @@ def _passing(gap: Fraction) -> StiffVariant:
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the fixed charge at a distance of {float(gap):g}"
-    # At the distance ``gap``, the acceleration is about 1/gap^2. With this acceleration, a charge moves by
-    # about ``gap`` in the time gap^(3/2). This time is the time scale.
+    # At the distance ``gap``, the acceleration is about 1/gap^2. The time scale is gap^(3/2). In this
+    # time, a charge with this acceleration moves by about ``gap``.
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

@@ -5,8 +5,8 @@ frame. (In ``heavy_top`` the inertia is constant in space.) The equations are R'
 I W' = (I W) x W + X x R^T (0, 0, -m g). R is the attitude, and hat(W) is the matrix of v -> W x v. In the
 body frame, W is the angular velocity, X the centre of mass, and I the inertia about the fixed point. The mass
 is m, and the acceleration of gravity is g. The angular momentum in space is mu = R I W, and its derivative is
-the torque: mu' = (R X) x (0, 0, -m g). The energy is conserved. The angular momenta about the vertical and
-about the symmetry axis, which contains X, are conserved, too.
+the torque: mu' = (R X) x (0, 0, -m g). X lies on the symmetry axis. The energy and the angular momenta
+about the vertical and about the symmetry axis are conserved.
 """
 
 from sympy import Matrix, Rational, diag, eye

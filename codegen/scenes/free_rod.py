@@ -16,7 +16,7 @@ stiffnesses K = (EI, EI, GJ) of bending and torsion: for a small rotation theta 
 second sum is sum_a K_a theta_a^2. V is a polynomial in the coordinates of the sections. A rigid motion of
 both sections does not change V, so the total momentum is constant.
 
-The code divides all energies and momenta by ds. This does not change the equations of motion.
+The code divides all energies and momenta by ds. The division does not change the equations of motion.
 """
 
 from collections.abc import Mapping, Sequence
@@ -59,8 +59,9 @@ the last section of the rod.
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Additional cross sections for free ends. They have the same frame R as the section at the end of the rod.
-Their centres make all strains zero, even if R has rounding errors. Therefore no force acts on the end."""
+"""Additional cross sections for free ends. Each additional section has the frame R of the section at the end
+of the rod. The centres of the additional sections make all strains zero, even if R has rounding errors.
+Therefore no force acts on the end."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:

@@ -39,7 +39,7 @@ scene = HamiltonianScene(
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return oscillators with the frequencies 1e3 and 1e6. They turn by RADIANS in their time spans."""
+    """Return oscillators with the frequencies 1e3 and 1e6. Each one turns by RADIANS in its time span."""
     return [_oscillator(omega) for omega in (10**3, 10**6)]
 
 

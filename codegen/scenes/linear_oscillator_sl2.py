@@ -3,8 +3,8 @@
 The equation is (q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y (H. Marthinsen's thesis,
 paper 3, Table 4.1). The matrix X has the entry 1 above the diagonal, Y has the entry 1 below the diagonal,
 and all other entries are 0. The generator depends on the time alone, so the differential equation is linear.
-Magnus, Fer and Cayley methods can therefore solve it. Every step of these methods is a symplectic matrix.
-``linear_oscillator`` is the same equation on T*R^4.
+Magnus, Fer and Cayley methods can therefore solve the equation. Each step of these methods multiplies (q, p)
+by a symplectic matrix. The scene ``linear_oscillator`` has this equation on T*R^4.
 
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
 *ExpSymNonCan* (Table 4.1). ExpSymNonCan has order 2. The errors in the thesis differ from those of the

@@ -1,8 +1,8 @@
 """Neighbours of a scene file: modules in the same folder that the scene may import.
 
-A neighbour is ignored if the standard library or an installed package has a module of the same name. The
-neighbours are removed from ``sys.modules`` after the scene has been loaded, because a scene in another folder
-may have a neighbour of the same name.
+A neighbour is ignored if the standard library or an installed package has a module of the same name. A
+scene in another folder may have a different neighbour of the same name. Therefore the neighbours are removed
+from ``sys.modules`` after the scene has been loaded.
 """
 
 from __future__ import annotations

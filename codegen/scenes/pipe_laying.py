@@ -5,7 +5,7 @@ vessel. As in the scene ``free_rod``, the rod is a chain of N cross sections, an
 the distance ds. Before the chain there is a clamped section. After the chain there is a section on the
 vessel. The vessel moves up and down, and pitches about the axis e2. The pitch angle is a sin(w t), where a
 and w are parameters. The parameter ``length`` is the distance between the clamped section and the section on
-the vessel at time 0. It must be equal to (N + 1) ds.
+the vessel at time 0. This distance must be (N + 1) ds.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

@@ -5,7 +5,7 @@ and the linear impulse is (p, r). The Hamiltonian is H = m^2/(2 J) + p^2/(2 A) +
 moment of inertia, A and B are masses, including the added masses of the fluid, and D couples rotation and
 translation. The equation is mu' = ad*_{dH} mu (H. Lamb, Hydrodynamics, 6th edition, section 124; H.
 Marthinsen's thesis, section 2.2.2). Every step preserves the Casimir function p^2 + r^2 up to rounding.
-``body_in_fluid`` is the same problem in three dimensions.
+``body_in_fluid`` is the problem in three dimensions.
 """
 
 from sympy import Matrix, Rational, symbols
