@@ -1,8 +1,8 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The polynomial is the same for every method of the family and for the exact flow. The values of the conditions
-for random methods and for the exact flow give linear equations for the coefficients of the polynomial. The
-equations are solved modulo two primes. The two solutions determine the rational coefficients.
+The polynomial does not depend on the method of the family, and it also applies to the exact flow. The values
+of the conditions for random methods and for the exact flow give linear equations for the coefficients of the
+polynomial. The equations are solved modulo two primes. The two solutions determine the rational coefficients.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of the tree p at a stage

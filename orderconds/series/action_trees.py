@@ -2,21 +2,21 @@
 
 Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. The vertices of a tree represent
 derivatives of H. A g-valued tree denotes an element of g, and a g*-valued tree denotes an element of g*. A
-word is a sequence of g-valued trees, which are the letters of the word. A multiset contains g*-valued trees.
-There are three kinds of trees:
+word is a sequence of g-valued trees, called letters. A multiset contains g*-valued trees. There are three
+kinds of trees:
 
-- A :class:`Velocity` is a g-valued tree with a word w and a multiset M. It is written (w, M) or ``o(w | M)``.
-  It denotes a mixed derivative of the vector dH/dmu: in q along the right-invariant fields of the letters of
-  w, and in mu along the covectors of M. The field of the first letter of w moves q first.
-- A :class:`Force` is a g*-valued tree with two words u and v and a multiset M. It is written ``H(u * v | M)``
-  or ``f(u * v | M)``. It denotes the covector that maps x to a derivative of H: in q along the
+- A :class:`Velocity` is a g-valued tree with a word w and a multiset M, written (w, M) or ``o(w | M)``. The
+  tree denotes a mixed derivative of the vector dH/dmu: in q along the right-invariant fields of the letters
+  of w, and in mu along the covectors of M. The field of the first letter of w moves q first.
+- A :class:`Force` is a g*-valued tree with two words u and v and a multiset M, written ``H(u * v | M)`` or
+  ``f(u * v | M)``. The tree denotes the covector that maps x to a derivative of H: in q along the
   right-invariant fields of u, x and v, and in mu along the covectors of M. The star marks the position of x.
-- A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. It denotes the covector that maps
-  x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here ``<mu, y>`` is the
+- A :class:`Transport` is a g*-valued tree with a word w, written ``L(w)``. The tree denotes the covector that
+  maps x to ``<mu, ad t_1 ... ad t_k x>``, where t_1, ..., t_k are the letters of w. Here ``<mu, y>`` is the
   pairing of mu with y.
 
-A velocity also denotes an elementary Hamiltonian, which is a term of the generating function
-(:func:`hamiltonian`). Equal trees are identical objects.
+A velocity also denotes an elementary Hamiltonian (:func:`hamiltonian`). The elementary Hamiltonians are the
+terms of the generating function. Equal trees are identical objects.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class _Node:
 
     @property
     def text(self) -> str:
-        """The canonical text, which identifies a tree."""
+        """The canonical text. Different trees have different texts."""
         if self._text is None:
             self._text = self._render()
         return self._text
@@ -164,10 +164,10 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the part of the cost of a word that is zero if all letters are equal.
+    """Return a summand of the cost of a word. The summand is zero if all letters of the word are equal.
 
-    The coefficient of a word with k equal letters has the simple form c^k/k!. Here c is the coefficient of
-    the word with one letter. Words with different letters have a higher cost.
+    The coefficient of a word with k equal letters has the simple form c^k/k!, where c is the coefficient of
+    the word with only one of these letters. Words with different letters have a higher cost.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -265,12 +265,13 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 
 
 def hamiltonian(tree: Velocity) -> str:
-    """Return the elementary Hamiltonian of a tree as text. Here ``m`` denotes mu, and ``ad(x) y = [x, y]``.
+    """Return the elementary Hamiltonian of a tree as text. In the text, ``m`` denotes mu, and ``ad(x) y`` is
+    [x, y].
 
     The letters after ``H_`` are the variables in which H is differentiated. The directions of the derivatives
     follow in parentheses. A semicolon separates the directions in q from the directions in mu. A direction in
-    q is an element of g, which defines a right-invariant field. A direction in mu is a covector. In the text
-    of a covector, a dot represents the argument.
+    q is an element of g. The element defines a right-invariant field. A direction in mu is a covector. In the
+    text of a covector, a dot represents the argument.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

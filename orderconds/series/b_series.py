@@ -124,8 +124,8 @@ class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows, for a vector x. A row contains pairs
     (j, weight_j).
 
-    If several rows begin with the same pairs, the partial sum of these pairs is computed only once. For a
-    composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
+    The first pairs of several rows may be equal. Then the partial sum of these pairs is computed only once.
+    For a composition of s midpoint rules, this reduces the number of products from about s^2/2 to about 2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)

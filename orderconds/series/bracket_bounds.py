@@ -19,14 +19,14 @@ the linear parts of u_1, ..., u_i span, and let d be the dimension of S.
 
 Each of the N brackets has a linear part, too. The linear parts of the N brackets span a space that contains
 S. Hence N is at least d. Now assume that every non-zero element of S has a polynomial P_n that is not a Lie
-element. Then N is greater than d, for the following reason. Consider the first of the N brackets that the
-program computes, and let x be the linear part of this bracket. The two factors of this bracket contain no
-brackets with new letters. Therefore all polynomials P_n of x are Lie elements. By the assumption, x is zero
-or not in S. If x is zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is
-not in S, the N linear parts span a space that is larger than S. In both cases, N is greater than d.
+element. Then N is greater than d, for the following reason. Of the N brackets, let B be the one that the
+program computes first, and let x be the linear part of B. The two factors of B contain no brackets with new
+letters. Therefore all polynomials P_n of x are Lie elements. By the assumption, x is zero or not in S. If x
+is zero, the linear parts of the other N - 1 brackets span a space that contains S. If x is not in S, the N
+linear parts span a space that is larger than S. In both cases, N is greater than d.
 
-The number of brackets without new letters has a lower bound of the same kind. The sum of this bound and the
-bound for N is a lower bound for the number of all brackets.
+The number of brackets without new letters has a similar lower bound. The sum of the lower bounds for the two
+numbers is a lower bound for the number of all brackets.
 """
 
 from __future__ import annotations
@@ -55,12 +55,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return a polynomial that is zero if and only if x is a Lie element. The polynomial x must have no
-    constant term.
+    """Return x - D(x). The result is zero if and only if the polynomial x is a Lie element.
 
-    The result is x - D(x). The linear map D replaces a word of n letters by its right-normed bracket divided
-    by n. For example, D maps the word a b c to [a, [b, c]]/3. By the theorem of Dynkin, Specht and Wever, x
-    is a Lie element if and only if D(x) = x.
+    The polynomial x must have no constant term. The linear map D replaces a word of n letters by its
+    right-normed bracket divided by n. For example, D maps the word a b c to [a, [b, c]]/3. By the theorem of
+    Dynkin, Specht and Wever, x is a Lie element if and only if D(x) = x.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -77,9 +76,9 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in every program that computes ``arguments``. This
-    list contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the
-    exponential of the step.
+    """Return a lower bound for the number of brackets in every program that computes ``arguments``. The list
+    ``arguments`` contains the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u
+    of the exponential of the step.
 
     The function ignores the terms of the largest grade of ``algebra`` in u_1, ..., u_s, because these terms
     do not affect the order of the method. The terms of the largest grade in u are included.

@@ -1,9 +1,9 @@
 """Simplification of a :class:`orderconds.series.brackets.BracketProgram`. The simplified program has the same
 number of brackets, but its linear combinations have fewer terms.
 
-Let B = [x, y] and C = [x, z] be two brackets with the same left factor x, and let t be a number. Then
-D = C + t B = [x, z + t y] is a single bracket. The program can compute D in place of C, because C = D - t B.
-The number t is chosen to cancel a term of a linear combination.
+Let t be a number, and let B = [x, y] and C = [x, z] be two brackets with a common left factor x. The sum C +
+t B = [x, z + t y] is a single bracket D. The program can compute D in place of C, because C = D - t B. The
+number t is chosen to cancel a term of a linear combination.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the same arguments, if possible with fewer terms.
+    """Return a program that computes the arguments of ``program``, if possible with fewer terms.
 
     In each step, the function adds a multiple of one bracket to a later bracket with the same left factor.
     The function stops when no step reduces the number of terms. The ring must have division and a test for

@@ -36,7 +36,7 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in exp(u_i). Here u_i is the argument of stage i. If i is the
+        """Return the coefficient of a forest in exp(u_i), where u_i is the argument of stage i. If i is the
         number of stages, u_i is the argument of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):

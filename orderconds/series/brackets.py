@@ -2,14 +2,14 @@
 simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
-step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples are chosen
-so that q_j has the highest possible grade. For order p, terms above grade p - 1 can be omitted from the
-arguments of the stages, and terms above grade p from the argument of the step (Munthe-Kaas and Owren, Phil.
-Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
+step size. The combination q_j is the sum of k_j and multiples of k_1, ..., k_(j-1). The multiples maximise
+the grade of q_j. For order p, terms above grade p - 1 can be omitted from the arguments of the stages, and
+terms above grade p from the argument of the step (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999)
+957; Casas and Owren, BIT 43 (2003) 723).
 
-A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. If
-a linear combination of two arguments seems to need fewer brackets than each of these arguments, the search
-expresses the combination before the arguments.
+A search expresses the arguments one after another by stage values, earlier brackets and few new brackets. A
+linear combination of two arguments may seem to need fewer brackets than each of the two. In this case, the
+search expresses the combination before the two arguments.
 """
 
 from __future__ import annotations
@@ -40,15 +40,15 @@ class BracketProgram:
 
     The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The result of a step of size h
     is exp(u) y0 with the argument u. Several arguments may use the same bracket. A row represents a linear
-    combination of elements h k_j and brackets. It maps the names of the elements and brackets to their
-    coefficients.
+    combination of elements h k_j and brackets. The row maps the name of each element and each bracket to its
+    coefficient.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
-    - ``least``: a lower bound for the number of brackets in every program for these arguments.
-    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values. The docstring of this module
-      defines grades and combinations q_j.
+    - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
+    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values. The module docstring defines
+      grades and the combinations q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -76,8 +76,8 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return a program with few brackets for an explicit tableau (A, b). The program has the same order as
-    the Runge-Kutta-Munthe-Kaas method of the tableau.
+    """Return a program with few brackets for an explicit tableau (A, b). The order of the program equals the
+    order of the Runge-Kutta-Munthe-Kaas method of the tableau.
 
     The order of the tableau must be ``order``. The ring must have division and decide whether an element is
     zero. The first search allows as many brackets as a lower bound for their number. If a search fails, it is
@@ -149,8 +149,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments u_1, ..., u_s of the stages and u of the step, divided by h. They are polynomials
-    in the combinations q_j of the module docstring."""
+    """Return the arguments u_1, ..., u_s of the stages and u of the step, divided by h. The arguments are
+    polynomials in the combinations q_j of the module docstring."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -169,8 +169,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return, for each stage i, the combinations of arguments that the program computes before u_i.
 
-    A combination has the form u_j - c u_i with a number c and a later stage j. It probably needs fewer
-    brackets than each of u_i and u_j. If a term of u_j is a single letter that is not known before u_i, it is
+    A combination has the form u_j - c u_i with a number c and a later stage j. The combination probably needs
+    fewer brackets than u_i, and fewer than u_j. Terms of u_j that are single letters not known before u_i are
     omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()

@@ -1,14 +1,14 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-A step is represented by its series, which has one coefficient for each tree or forest. The function that maps
-a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1. A cut
-(:mod:`orderconds.series.cuts`) may remove several components. The coefficients of these components are
-multiplied.
+The series of a step represents the step. The series has one coefficient for each tree or forest. The function
+that maps a tree or forest to its coefficient is called a character. The coefficient of the empty forest is 1.
+A cut (:mod:`orderconds.series.cuts`) may remove several components. In this case, the coefficients of the
+components are multiplied.
 
 A B-series has a coefficient a(t) for each canonical rooted tree t. The series is y1 = y0 + sum_t h^|t|
 a(t)/sigma(t) F(t), where y0 and y1 are the values before and after a step of size h. Here |t| is the number
-of vertices, sigma(t) is the order of the symmetry group, and F(t) is the elementary differential. A
-Lie-Butcher series has a coefficient for each ordered forest (:mod:`orderconds.series.lie_butcher`). HLW
+of vertices of t, sigma(t) is the order of the symmetry group of t, and F(t) is the elementary differential of
+t. A Lie-Butcher series has a coefficient for each ordered forest (:mod:`orderconds.series.lie_butcher`). HLW
 denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
@@ -105,7 +105,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of the same method with step size ``factor`` times h."""
+        """Return the step of this method with the step size ``factor`` times h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one

@@ -7,7 +7,7 @@ ad_u x = [u, x]. The numbers B_k are the Bernoulli numbers with B_1 = -1/2 (HLW 
 The truncation index r is the highest power of ad_u. If dexpinv is not truncated, r is infinite.
 
 The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
-factor y acts first. Hence the words of this product begin with the letters of y. HLW denotes Hairer, Lubich
+factor y acts first. Hence each word of the product x y begins with letters of y. HLW denotes Hairer, Lubich
 and Wanner, *Geometric Numerical Integration*.
 """
 
@@ -119,8 +119,8 @@ class DexpinvSeries:
         """Return a list with one entry for each stage j: the coefficient of the word v k_j w in the truncated
         series dexpinv_{u_j} k_j. Return None if no term of the series contains such words.
 
-        Stage j has the argument u_j and the stage value k_j, which is treated as one letter. The word v is
-        ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
+        Stage j has the argument u_j and the stage value k_j. The stage value is treated as one letter. The
+        word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -135,8 +135,8 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that may contain a word v x w, as triples (q, m, n).
-        Here q is a number, v has ``before`` letters, and w has ``behind`` letters.
+        """Return the terms q u^n x u^m of dexpinv_u x that may contain a word v x w, as triples (q, m, n)
+        with a number q. The word v has ``before`` letters, and w has ``behind`` letters.
 
         In a product, the rightmost factor acts first. In a word, the first letter acts first. Hence v is a
         word in u^m, and w is a word in u^n.

@@ -2,8 +2,8 @@
 
 Let the exponents X_1, ..., X_m be linear combinations of letters, where x_J(k) is the coefficient of the
 letter k in X_J. In the product exp(X_m) ... exp(X_1), the factor exp(X_1) acts first. In a word k_1 ... k_n,
-the letter k_1 acts first. The coefficient of this word in the product is the sum, over all indices J_1 <= ...
-<= J_n, of
+the letter k_1 acts first. In the product, the coefficient of k_1 ... k_n is the sum, over all indices J_1 <=
+... <= J_n, of
 
 x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
@@ -55,8 +55,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The coefficient is a sum over the number r of letters that come from exp(X_J). They are
-                # the last r letters of the word. The other letters come from exp(X_0), ..., exp(X_(J-1)).
+                # The coefficient is a sum over the number r of letters that come from exp(X_J). These letters
+                # are the last r letters of the word. The other letters come from exp(X_0), ..., exp(X_(J-1)).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

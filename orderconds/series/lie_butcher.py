@@ -94,7 +94,7 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in the product of the exponentials of stage i. This product maps
+        """Return the coefficient of a forest in the product of the exponentials of stage i. The product maps
         y0 to the point at which stage i evaluates the vector field. Stages are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
@@ -121,13 +121,13 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in the partial products of ``places``, which has the
-        format of ``self._places``. The list has one entry for each partial product of the method. The entries
-        for partial products outside ``places`` are zero."""
+        """Return the coefficients of a non-empty word in the partial products of ``places``. The format of
+        ``places`` is that of ``self._places``. The list has one entry for each partial product of the method.
+        The entries for partial products outside ``places`` are zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The coefficient in a partial product is a sum over the number r of letters that come from the last
-        # exponential. They are the last r letters of the word. The other letters come from earlier
+        # exponential. These letters are the last r letters of the word. The other letters come from earlier
         # exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
@@ -166,9 +166,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. The branches of a tree t_l form a forest. Let
-    c_l(s) be the coefficient of this forest in g(s). Then the coefficient of the forest t_1 ... t_n in g(1)
-    is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
+    The exact flow is g(1), where g' = f(g y0) g and g(0) = 1. Let c_l(s) be the coefficient in g(s) of the
+    forest that consists of the branches of the tree t_l. Then the coefficient of the forest t_1 ... t_n in
+    g(1) is the integral of c_1(s_1) ... c_n(s_n) over 0 < s_1 < ... < s_n < 1.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -184,8 +184,8 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
     For matrices, the step is y1 = g1 y0. The matrix g1 is the sum of h^|w| a(w) F(t_k) ... F(t_1) over all
     forests w = t_1 ... t_k, where |w| is the number of vertices. The elements F(t) of the Lie algebra are
-    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the derivative
-    along the vector field y' = F(t_l) y, in which F(t_l) is constant.
+    defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, X_l is the derivative along
+    the vector field y' = F(t_l) y, and the element F(t_l) is constant.
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -1,11 +1,11 @@
 """Selection of independent order conditions for a family of methods. Each ordered forest has one condition.
-The left-hand sides are evaluated for random methods of the family. They form a matrix with one row for each
-method and one column for each condition. Linear algebra shows which columns are independent.
+The left-hand sides are evaluated for random methods of the family. The left-hand sides form a matrix with one
+row for each method and one column for each condition. Linear algebra shows which columns are independent.
 
 A condition is omitted if it follows from earlier conditions. In this case, its left-hand side is a linear
-combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand
-sides are the coefficients in the exact flow, and must satisfy the same linear relation. For this reason, one
-row of the matrix contains the right-hand sides.
+combination of earlier left-hand sides and of products of left-hand sides of lower order. The right-hand sides
+are the coefficients in the exact flow. The linear relation must also hold for the right-hand sides. For this
+reason, one row of the matrix contains the right-hand sides.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
 vector with one number modulo a prime for each sample."""
 
 SPARE_SAMPLES = 20
-"""The number of samples beyond the largest possible rank. These additional samples make accidental
-dependences improbable."""
+"""The number of samples beyond the largest possible rank. With additional samples, accidental dependences are
+improbable."""
 
 
 def independent_forests(
@@ -58,8 +58,8 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # For each order, a matrix has one row for each sample. Its rank is at most the number of ordered forests
-    # of this order. Hence the highest order determines the number of samples.
+    # For each order, a matrix has one row for each sample. The rank of the matrix is at most the number of
+    # ordered forests of the order. Hence the highest order determines the number of samples.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -1,8 +1,8 @@
 """Products of exponentials or of Cayley transforms for the equation Y' = A(t) Y.
 
-An exponent is a linear combination of words. It is represented by a function that maps a word to its
-coefficient. The letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The first
-letter of a word acts first.
+An exponent is a linear combination of words. The exponent is represented by a function that maps a word to
+its coefficient. The letter k denotes the matrix A_k in A(t) = sum_k t^(k-1) A_k, and has the weight k. The
+first letter of a word acts first.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TRANSFORMS = {
 }
 """A pair of functions for each transform: the exponential and the Cayley transform. The first function
 returns the coefficients of the power series of the transform, without the constant term 1. The second
-function returns the coefficients of the inverse function of this series."""
+function returns the coefficients of the power series of the inverse function."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

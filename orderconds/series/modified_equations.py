@@ -1,7 +1,7 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
-+ .... Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. A linear map L is defined on
+One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h.
+Let a(t) and b(t) be the coefficients of the tree t in the step and in f~. A linear map L is defined on
 functions c of trees: the value (L c)(t) is the sum of b(u) c(r) over all edges of t. If the edge is removed,
 t falls into a subtree u and the part r with the root. Then a = sum_(j >= 1) (1/j!) L^(j-1) b (HLW IX.9.1). On
 ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and
@@ -26,8 +26,8 @@ class VectorField:
     series has one coefficient for each ordered forest.
 
     The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t), where t runs through all trees. Here
-    |t| is the number of vertices, b(t) is the coefficient of t, sigma(t) is the order of the symmetry group
-    of t, and F(t) is the elementary differential.
+    |t| is the number of vertices of t, b(t) is the coefficient of t, sigma(t) is the order of the symmetry
+    group of t, and F(t) is the elementary differential of t.
 
     The field of a Lie-Butcher series for matrices is f~ = sum_w h^(|w|-1) b(w) F(t_k) ... F(t_1), where w =
     t_1 ... t_k runs through all words of ordered trees.
@@ -44,7 +44,7 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function ``value``, which maps a tree or forest to its coefficient in the field. To compute
+        """Set the function ``value`` that maps a tree or forest to its coefficient in the field. To compute
         the coefficient of a tree, ``value`` may use the coefficients of smaller trees in this field."""
         self._value = value
 
@@ -74,9 +74,9 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b for a tree or forest. Here b(forest) is the coefficient in this
-        vector field. The value (L c)(forest) is the sum of b(component) c(rest) over all cuts that remove one
-        component and leave a non-empty rest."""
+        """Return the value of L^(n-1) b for a tree or forest. Here b(forest) is the coefficient of a forest
+        in this vector field. The value (L c)(forest) is the sum of b(component) c(rest) over all cuts that
+        remove one component and leave a non-empty rest."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -108,8 +108,9 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. A free tree has no root, and t is a rooted tree that represents it. Here |t| is the number of
-    vertices, b(t) is the coefficient of t in the field, and sigma(t) is the order of the symmetry group of t.
+    vertices. A free tree has no root. In each summand, the rooted tree t represents a free tree. Here |t| is
+    the number of vertices of t, b(t) is the coefficient of t in the field, and sigma(t) is the order of the
+    symmetry group of t.
 
     For a tree t with the branches t_1, ..., t_m, the elementary Hamiltonian is H(t) = H^(m)(F(t_1), ...,
     F(t_m)). Here H^(m) is the m-th derivative of the Hamiltonian, and F denotes elementary differentials. If
@@ -118,7 +119,7 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     Let u o v be the tree u with the additional branch v at its root. The field is Hamiltonian if b(u o v) +
     b(v o u) = 0 for all trees u and v. Raises :class:`~orderconds.errors.InputError` if the field is a
-    Lie-Butcher series, or if one of these equations cannot be proved.
+    Lie-Butcher series, or if one of the equations b(u o v) + b(v o u) = 0 cannot be proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

@@ -31,7 +31,7 @@ Combination = dict[Forest, Element]
 
 def substituted(field: VectorField, step: Character) -> Character:
     """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
-    coefficients of ``step`` and ``field`` must be elements of the same ring.
+    coefficients of ``step`` and ``field`` must be elements of one ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
@@ -63,8 +63,8 @@ def modifying_field(step: Character) -> VectorField:
 
     Truncate the modifying field after the power h^(p-1) and apply ``step`` to the truncated field. The result
     is a method of order at least p (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). Raises
-    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series. It is also raised if the sum
-    of the weights of the method is proved to differ from 1.
+    :class:`~orderconds.errors.InputError` if ``step`` is a Lie-Butcher series, or if the sum of the weights
+    of the method is proved to differ from 1.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -85,7 +85,7 @@ def modifying_field(step: Character) -> VectorField:
 
     def value(tree: Tree) -> Element:
         # The sum over all partitions must equal ``flow(tree)``. The partition into one component has the
-        # summand ``field(tree)``, because the step is consistent. The equation is solved for this summand.
+        # summand ``field(tree)``, because the step is consistent. The equation is solved for ``field(tree)``.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)

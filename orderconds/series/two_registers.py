@@ -3,17 +3,17 @@
 The registers are y and k. At the start of a step, k is zero. Stage i replaces k by A_i k + h f(y), and then
 replaces y by exp(B_i k) y. The series of a step is a linear combination of words in the letters K and D. The
 letter K (kick) is the derivative along the vector field k' = f(y). The letter D (drift) is the derivative
-along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, a word
-is needed only if it has two properties: The numbers of letters K and D are equal, and no suffix contains more
+along the vector field y' = k y. The last letter of a word acts first. Because k is zero at the start, only
+words with two properties are needed: The numbers of letters K and D are equal, and no suffix contains more
 letters K than letters D.
 
 A linear combination of words is a differential operator. The operator is zero on all groups if and only if it
-is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence a 2N scheme has the same order
-on groups and on vector spaces.
+is zero on all vector spaces (proof: docs/explanation/two_registers.md). Hence the order of a 2N scheme on
+groups equals its order on vector spaces.
 
 The value of a rooted forest is the product of the elementary weights of its trees. In the Lie-Butcher series
 of a 2N scheme, the coefficient of an ordered forest is a linear combination of the values of rooted forests.
-This module computes the linear combination, which is the same for all 2N schemes.
+This module computes the linear combination. The linear combination does not depend on the 2N scheme.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 def unordered(forest: Forest) -> Forest:
     r"""Sort the branches and the trees of an ordered forest. The result represents a forest of rooted trees.
-    Its trees are canonical and sorted by level sequence, the greatest first.
+    The trees are canonical and sorted by level sequence, the greatest first.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -211,7 +211,7 @@ def _kick(product: Operator, ordered: bool) -> Combination:
 
 def _within(product: Operator, act: Callable[[Operator, bool], Combination], ordered: bool) -> Combination:
     """Return a sum over the factors of a product of derivatives, without the factors that are None. In each
-    summand, ``act``, which is :func:`_drift` or :func:`_kick`, is applied to one factor."""
+    summand, ``act`` is applied to one factor. The function ``act`` is :func:`_drift` or :func:`_kick`."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is not None:

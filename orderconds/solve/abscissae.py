@@ -1,25 +1,26 @@
 """Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
-Stage i of a variational method on a Lie group has three abscissae. They are c_i for the position q, chat_i
-for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). Let
-beta_J^i be the coefficient of stage i in the J-th exponential of the update. Let b_i = sum_J beta_J^i be the
-weight of stage i, and y_J = sum_i beta_J^i the sum of the coefficients in the J-th exponential. The abscissa
-m_i is defined by
+Stage i of a variational method on a Lie group has three abscissae: c_i for the position q, chat_i for the
+forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). Let beta_J^i
+be the coefficient of stage i in the J-th exponential of the update. Let b_i = sum_J beta_J^i be the weight of
+stage i, and y_J = sum_i beta_J^i the sum of the coefficients in the J-th exponential. The abscissa m_i is
+defined by
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K).
 
 For Crouch-Grossman methods, m_i = b_1 + ... + b_{i-1} + b_i/2.
 
 Let each of x and z be one of the abscissae c, chat and m. A method of order three satisfies sum_i b_i x_i z_i
-= 1/3. Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. The sum of b_i (chat_i - m_i)^2 is
-zero by the same argument. If the weights are positive, all terms are zero, and the three abscissae are equal.
+= 1/3. Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. Similarly, the sum of b_i (chat_i -
+m_i)^2 is zero. If the weights are positive, all terms of the two sums are zero, and the three abscissae are
+equal.
 
-Let a_ij be the coefficient of stage j in stage i. If the three abscissae are equal, the matrix A of these
-coefficients satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j)
-for each column j. Equations of this form are called a transportation problem.
+Let A be the matrix of the coefficients a_ij of stage j in stage i. If the three abscissae are equal, A
+satisfies linear equations: sum_j a_ij = m_i for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each
+column j. Equations of this form are called a transportation problem.
 
-Each entry a_ij is an edge between row i and column j in a graph. The nodes of this graph are the rows and
-columns of A. The equations are solved for the entries that form a spanning tree of the graph.
+The rows and columns of A are the nodes of a graph. Each entry a_ij is an edge between row i and column j. The
+equations are solved for the entries that form a spanning tree of the graph.
 """
 
 from __future__ import annotations
@@ -74,7 +75,7 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     """Return formulas for 2 s - 1 entries of A, where s is the number of stages.
 
     With these formulas, each row i satisfies the equation sum_j a_ij = m_i, and each column j satisfies the
-    equation sum_i b_i a_ij = b_j (1 - m_j). Here m_i are the abscissae and b_i are the weights. The formulas
+    equation sum_i b_i a_ij = b_j (1 - m_j), where m_i are the abscissae and b_i are the weights. The formulas
     contain the abscissae, the weights and the remaining entries of A.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the names of known entries to their values. All
@@ -151,7 +152,7 @@ def symmetric_transport(
     - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
 
     The abscissa m_i determines the sum of row i of ``own``. For each column j in the first half, the sum of
-    b_i (x_ij - x_ik) over the rows i of ``own`` is C_j, where k = s + 1 - j. Here b_i are the weights. The
+    b_i (x_ij - x_ik) over the rows i of ``own`` is C_j, where k = s + 1 - j, and b_i are the weights. The
     formula for C_j does not contain entries of ``own``.
 
     The function solves these equations for the last entry of each row and the first half of the last row. It

@@ -2,11 +2,11 @@
 unknown coefficients.
 
 The file describes a method with a given number of stages. The coefficients of the method have names such as
-a21 and b1. They are evaluated in three kinds of arithmetic:
+a21 and b1. The coefficients are evaluated in three kinds of arithmetic:
 
-- recording of the operations, which gives a program for the numerical search
-- integers modulo primes, which give the ranks of the conditions
-- interval arithmetic (balls), which proves the order
+- recording of the operations: the record is a program for the numerical search
+- integers modulo primes, for the ranks of the conditions
+- interval arithmetic (balls), for the proof of the order
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 class Ansatz:
     """The text of a tableau file without the values of the free coefficients.
 
-    - ``free``: the names of the free coefficients, which are the unknowns
+    - ``free``: the names of the free coefficients (the unknowns)
     - ``numbers``: formulas for all other named coefficients
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
     - ``cells``: the names of all coefficients that are not constants

@@ -1,10 +1,10 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
 Coefficients that the order conditions do not determine are rounded to short decimals. Newton's method
-computes all other coefficients to high precision. Lattice reduction tries to find closed forms of these
-coefficients in one number field. With closed forms, the order is checked exactly. If there are no closed
-forms or the check fails, the file contains rounded decimals. In this case, interval arithmetic proves that
-the order conditions have a solution near the decimals.
+computes all other coefficients to high precision. Lattice reduction tries to find closed forms of the
+computed coefficients in one number field. With closed forms, the order is checked exactly. If there are no
+closed forms or the check fails, the file contains rounded decimals. In this case, interval arithmetic proves
+that the order conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round the coefficients that the equations do not determine. Return three values: a solution with these
+    """Round the coefficients that the equations do not determine. Return three values: a solution with the
     rounded coefficients, a map from the index of each rounded coefficient to its value, and the indices of
     all other coefficients. The rounding units in ``steps`` are tried one after another. Raises NotProved if
     no unit can be used (:data:`STEPS`)."""
@@ -299,7 +299,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # In a tableau file, decimals that are equal up to sign denote the same unknown. Add digits until
+            # In a tableau file, decimals that are equal up to sign denote one unknown. Add digits until
             # different coefficients have different decimals.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:

@@ -3,8 +3,8 @@
 Let x be an approximate root of a polynomial of degree n with small integer coefficients c_0, ..., c_n. Let N
 be a large number. The vector v_k consists of the k-th unit vector and one more entry N x^k. The vectors v_0,
 ..., v_n span a lattice. The lattice vector sum_k c_k v_k has the small entries c_0, ..., c_n. The last entry
-of this vector is N times the value of the polynomial at x, and is small, too. Lattice reduction finds short
-vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
+of sum_k c_k v_k is N times the value of the polynomial at x. This entry is small, too. Lattice reduction
+finds short vectors in a lattice (Lenstra, Lenstra and Lovasz 1982).
 
 The recognised number is only a guess. The caller must verify the guess by exact arithmetic.
 """
@@ -88,9 +88,9 @@ def _extended(
 ) -> dict[str, ClosedForm] | None:
     """Return the numbers as rational combinations of basis elements, or None if no basis is found.
 
-    The basis contains 1 and the square roots ``radicals``. If a number r is not a combination of these
-    elements, a new basis is used. The new basis contains all products of an old basis element and a power of
-    r. The new basis has at most 2 MAX_DEGREE elements.
+    The basis contains 1 and the square roots ``radicals``. If a number r is not a combination of 1 and
+    ``radicals``, a new basis is used. The new basis contains all products of an old basis element and a power
+    of r. The new basis has at most 2 MAX_DEGREE elements.
     """
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]

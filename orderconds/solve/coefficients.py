@@ -11,8 +11,8 @@ from orderconds.solve.linear import Constraint, Elimination, equality, spell
 from orderconds.solve.spec import Spec
 
 Nodes = Mapping[str, Sequence[str]]
-"""Maps the name of a node (abscissa), such as c2, to a list of coefficient names. The node is the sum of
-these coefficients."""
+"""Maps the name of a node (abscissa) to the names of some coefficients. The node (for example c2) is the sum
+of the coefficients."""
 
 
 def eliminated(
@@ -20,8 +20,8 @@ def eliminated(
 ) -> Elimination:
     """Impose ``constraints`` and the constraints of the option ``--fix`` on the coefficients ``names``.
 
-    A constraint of ``--fix`` may contain names of nodes, such as c2. Raises InputError if a constraint of
-    ``--fix`` contains an unknown name, or if constraints contradict each other.
+    A constraint of ``--fix`` may contain names of nodes (for example c2). Raises InputError if a constraint
+    of ``--fix`` contains an unknown name, or if constraints contradict each other.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec

@@ -1,10 +1,10 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The conditions are written as polynomials that must be zero. A Groebner basis is computed for a subset of
-these polynomials. The subset contains at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no
-real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
-Sturm's theorem counts the real roots of this polynomial. If there is no real root, no real method satisfies
-the conditions.
+The conditions are written as polynomials that must be zero. A Groebner basis is computed for a subset of the
+polynomials. The subset contains at most :data:`MAX_VARIABLES` coefficients. If the basis contains 1, no real
+or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient, Sturm's
+theorem counts the real roots of this polynomial. If there is no real root, no real method satisfies the
+conditions.
 
 The formulas of some families divide by the weights b_i. In these families, no weight is zero. Zero is
 therefore not counted as a root of a polynomial in b_i.
@@ -40,8 +40,8 @@ MAX_VARIABLES = 3
 """Elimination uses only conditions that contain at most MAX_VARIABLES coefficients."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Elimination is tried for at most MAX_UNKNOWNS unknowns. Only conditions up to order MAX_ORDER are used.
-These limits keep the number of terms in the polynomials small."""
+"""Elimination is tried for at most MAX_UNKNOWNS unknowns. Only conditions up to order MAX_ORDER are used. The
+two limits keep the number of terms in the polynomials small."""
 
 MAX_DEGREE = 8
 """The degree of a multiplier in a proof (:class:`Infeasible`) is below MAX_DEGREE."""
@@ -56,8 +56,8 @@ class Infeasible:
 
     - If ``real`` is false, the equation ``consequence`` = 0 has no real or complex solution.
     - If ``real`` is true and ``weight`` is empty, the equation has no real solution.
-    - If ``weight`` is the name of a weight, zero is the only real solution of the equation. The formulas of
-      the family divide by this weight. Therefore, the weight cannot be zero.
+    - If ``weight`` is the name of a weight, zero is the only real solution of the equation. The weight cannot
+      be zero, because the formulas of the family divide by the weight.
 
     Entry k of ``equations`` is the residual of condition k: the left-hand side minus the right-hand side. The
     residual is multiplied by a monomial that removes the denominators.
@@ -108,8 +108,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # The formulas of symplectic methods divide by the weights. No method is lost: a stage with weight zero
-    # can be replaced by a copy of another stage. The two copies share the weight of this stage equally.
+    # The formulas of symplectic methods divide by the weights. No method is lost: a stage i with weight zero
+    # can be replaced by a copy of another stage j. Then the stages i and j each have half the former weight
+    # of stage j.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -183,8 +184,8 @@ def _consequence(
     suitable polynomial is found.
 
     A polynomial without real roots is suitable. In this case, the returned name is empty. The set ``nonzero``
-    contains the weights that cannot be zero. A polynomial in one of these weights is also suitable if zero is
-    its only real root. In this case, the name of the weight is returned.
+    contains the weights that cannot be zero. A polynomial in a weight of ``nonzero`` is also suitable if zero
+    is the only real root of the polynomial. In this case, the name of the weight is returned.
     """
     import sympy
 
