@@ -108,7 +108,9 @@ class ExpandedStep(ABC):
     nu: list[Var]
     """Ad*_{exp X_j} n_j: the force n_j of each stage, transported to q0."""
     mubar: Var
-    """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
+    """mu0 + h sum_j b_j nu_j. Here mu0 is the momentum at the beginning of the step, and nu_j is entry j of
+    ``nu``.
+    """
 
     def __init__(self, problem: Problem, method: Method) -> None:
         # No term of the truncated series has more than ``self.r`` brackets.

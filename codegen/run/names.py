@@ -35,7 +35,7 @@ class Names:
 
     def fresh(self, proposal: str) -> str:
         """Return a new identifier: ``proposal``, or a similar name if ``proposal`` is illegal or in use."""
-        # Only ASCII letters are kept, because not every compiler accepts other letters.
+        # Letters outside of ASCII are replaced, because some compilers do not accept them.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers that begin with two underscores. Python changes these names inside a class.
         if not name or name[0].isdigit() or name.startswith("__"):
