@@ -1,9 +1,9 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` tests the orders that each file
 claims.
 
-The plugin is active only if one of its flags is given. The flags ``--orderconds-require-claims``,
-``--orderconds-complete``, ``--orderconds-certified``, ``--orderconds-execute`` and ``--orderconds-tolerance``
-correspond to options of ``orderconds check``.
+The flags ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
+``--orderconds-execute`` and ``--orderconds-tolerance`` correspond to options of ``orderconds check``. Without
+``--orderconds`` or one of the first four flags, the plugin does nothing.
 
 Files without a tableau are skipped. At the end, pytest prints the names of the skipped files and the reasons.
 The test of a tableau that claims no order is skipped. With ``--orderconds-require-claims``, this test fails.
@@ -104,7 +104,8 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 
 
 class NoTests(pytest.File):
-    """A Python file that contains a tableau. Pytest does not import it and collects no tests from it."""
+    """A Python file that contains a tableau. Pytest does not import the file and collects no tests
+    from the file."""
 
     def collect(self) -> Iterable[pytest.Item]:
         """Return no tests."""
@@ -115,7 +116,7 @@ class TableauFile(pytest.File):
     """A file with one tableau."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Yield one test, which checks all claims of the file."""
+        """Yield a single test of all claims of the file."""
         yield TableauItem.from_parent(self, name="claims")
 
 

@@ -1,15 +1,15 @@
-"""Krawczyk's operator, which proves in ball arithmetic that a square system has exactly one solution in a
-box.
+"""Krawczyk's operator. With ball arithmetic, it proves that a square system has exactly one zero in a box.
 
 Let F: R^n -> R^n, let X be a box with midpoint x, and let Y be a matrix. In this module, Y is an approximate
 inverse of the Jacobian matrix at x. Krawczyk's operator K is
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
-Here I is the identity matrix, and F'(X) encloses the Jacobian matrices of F at all points of X. If K(X) lies
-in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and the Jacobian matrix of F
-is regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, Theorem
-5.1.8). Repeated application of K shrinks the box to the working precision. The convergence is quadratic.
+Here I is the identity matrix, and F'(X) is a ball matrix that contains the Jacobian matrix of F at every
+point of X. If K(X) lies in the interior of X, then F has exactly one zero in X. The zero lies in K(X). The
+Jacobian matrix of F is regular at every point of X (Krawczyk 1969; Neumaier, *Interval Methods for Systems of
+Equations*, Theorem 5.1.8). Repeated application of K shrinks the box to the working precision. The
+convergence is quadratic.
 """
 
 from __future__ import annotations

@@ -48,9 +48,9 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Compute the unknowns of the ``[proof]`` table of a tableau file to ``digits`` decimal places. ``text``
     is the text of the file.
 
-    The result contains the text of a new file. If there are more decimals than equations, some decimals do
-    not change. The list ``pins`` of the new file contains the names of these decimals. The table
-    ``[proof.printed]`` contains the original digits.
+    The result contains the text of a new file. If there are more unknowns than independent equations, some
+    unknowns keep their decimals. The list ``pins`` of the new file contains the names of the unknowns that
+    do not change. The table ``[proof.printed]`` contains the original digits.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
     decimals.
@@ -86,7 +86,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Select one unknown for each equation. Return the indices of these unknowns in ascending order.
+    """Select one unknown for each equation. Return the indices of the selected unknowns in ascending
+    order.
 
     Each row of ``jacobian`` contains the derivatives of one equation. The function divides each row by its
     largest entry. Gaussian elimination with complete pivoting selects the unknowns.

@@ -19,7 +19,8 @@ from orderconds.ring.roots import isolate
 
 
 class Balls:
-    """The ring of real balls with ``bits`` bits of precision. Two rings with the same ``bits`` are equal.
+    """The ring of real balls with ``bits`` bits of precision. Two rings are equal if their ``bits`` are
+    equal.
 
     >>> R = Balls(128)
     >>> third = R.rational(1, 3)
@@ -82,12 +83,12 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return a measure of the size of x: the larger of abs(e) and abs(f). Here e and f are the binary
-        exponents of the midpoint and of the radius."""
+        """Return a measure of the size of x: the larger of abs(e) and abs(f), where e is the binary exponent
+        of the midpoint and f is the binary exponent of the radius."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
-        """Return a flint ball as an element of this ring."""
+        """Return the flint ball x as an element of this ring."""
         return Ball(x, self.bits)
 
     def is_zero(self, x: Ball) -> bool | None:
@@ -155,7 +156,7 @@ class Enclosures:
     """The ring of real balls, whose elements have python-flint's type ``arb``.
 
     The caller sets the working precision in a block ``with precision(bits)``. Arithmetic is faster than in
-    :class:`Balls` and returns the same balls. There is one exception: division by a ball that contains zero
+    :class:`Balls`. The resulting balls are equal, with one exception: division by a ball that contains zero
     returns a ball that is not finite. In :class:`Balls`, this division raises an error.
 
     >>> with precision(128):
@@ -183,7 +184,7 @@ class Enclosures:
         return None if x.contains(0) else False
 
     def text(self, x: arb) -> str:
-        """Return the same text as :meth:`Balls.text`."""
+        """Return x as text, in the format of :meth:`Balls.text`."""
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
@@ -204,8 +205,8 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest integer d with 10^-d >= 2 ``radius``.
 
-    If the midpoint of a ball with this radius is rounded to d decimal places, the result differs from each
-    number in the ball by at most 10^-d.
+    Let a ball have this radius, and round its midpoint to d decimal places. The rounded midpoint differs from
+    each number in the ball by at most 10^-d.
     """
     # The digits of flint integers are counted, because ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))

@@ -1,7 +1,7 @@
 """Conversion of exact numbers to correctly rounded decimals and doubles.
 
 An irrational number is given by a function that computes an enclosing ball at any precision. The precision is
-increased until both end points of the ball round to the same decimal or double.
+increased until both end points of the ball are rounded to equal decimals or doubles.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A function that represents a real number. Its argument is a precision in bits, and its result is a ball
+"""A function that represents a real number. The argument is a precision in bits. The result is a ball
 (interval) that contains the real number."""
 
 

@@ -15,7 +15,7 @@ from flint import fmpz
 
 class Draws:
     """A generator of pseudorandom numbers. The constructor takes texts that describe the tested object. Each
-    number is computed from these texts, a name and a number of bits.
+    pseudorandom number is computed from the texts, a name and a number of bits.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
@@ -26,8 +26,8 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return a pseudorandom integer from 0 to 2^bits - 1 for this name. All integers in this range are
-        equally probable."""
+        """Return the pseudorandom integer for ``name``. All integers from 0 to 2^bits - 1 are equally
+        probable."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()

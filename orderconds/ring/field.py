@@ -1,8 +1,8 @@
 """Real number fields, whose elements are exact algebraic numbers.
 
 A field Q(a) is defined by the minimal polynomial of a real number a and by a function that computes balls
-around a. An element of the field is represented by a polynomial in a. The degree of this polynomial is
-smaller than the degree of the minimal polynomial. An element is zero if and only if its polynomial is zero.
+around a. An element of the field is represented by a polynomial in a, of smaller degree than the minimal
+polynomial. An element is zero if and only if the polynomial that represents it is zero.
 
 The class :class:`orderconds.ring.tower.Tower` constructs a sequence of fields by adjoining one root after
 another. If an operation combines elements of two fields of a tower, the result lies in the larger field.
@@ -31,8 +31,8 @@ REMEMBERED = 1000
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field. It is a radical or a named root. A tableau file defines a named
-    root by a polynomial.
+    """A root that is adjoined to a field. The root is a radical or a named root. A tableau file defines a
+    named root by a polynomial.
 
     - ``index``: n for an n-th root, and 0 for a named root.
     - ``symbol``: the radicand of a radical as text, or the name of a named root.
@@ -94,7 +94,7 @@ class NumberField:
     @cached_property
     def _identity(self) -> Key:
         """A triple: the name of the field, the polynomial ``modulus`` and the named roots. Two fields are
-        equal if and only if their triples are equal."""
+        equal if and only if the triples of the two fields are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -120,8 +120,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. The number x may be an element of this field or of a smaller
-        field of the same tower. TypeError is raised for elements of other fields."""
+        """Return x as an element of this field. The number x may be an element of this field, or of a
+        smaller field in the tower of this field. TypeError is raised for elements of other fields."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -144,8 +144,8 @@ class NumberField:
 
     @cached_property
     def _parent_powers(self) -> tuple[fmpq_poly, ...]:
-        """A basis of the parent field over Q. It consists of the powers of the parent's primitive element,
-        given as polynomials in the primitive element of this field."""
+        """A basis of the parent field over Q: the powers of the parent's primitive element. Each power is
+        given as a polynomial in the primitive element of this field."""
         assert self.parent is not None
         powers = [fmpq_poly([1])]
         for _ in range(self.parent.degree - 1):
@@ -260,7 +260,7 @@ class Algebraic:
 
     @property
     def rational_value(self) -> fmpq:
-        """The value of this number, which must be rational (see :attr:`is_rational`)."""
+        """The value of this number as a rational number. The attribute :attr:`is_rational` must be True."""
         return self.polynomial[0]
 
     @property
@@ -290,7 +290,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        # Fast path: usually both operands are elements of the same field, and no conversion is necessary.
+        # Fast path: usually both operands are elements of one field, and no conversion is necessary.
         if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
@@ -339,8 +339,9 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial that represents the inverse of this number. It is computed from a linear
-        system, which is faster than Euclid's algorithm in fields of high degree."""
+        """Return the polynomial that represents the inverse of this number. The coefficients are the
+        solution of a linear system. In fields of high degree, this method is faster than Euclid's
+        algorithm."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())

@@ -2,7 +2,7 @@
 
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let N be a large
 number, and let e_k be the unit vectors. Append the number N x_k, rounded to an integer, to each vector e_k.
-The extended vectors span a lattice. A relation with small integers c_k gives a short vector of this lattice.
+The extended vectors span a lattice. A relation with small integers c_k gives a short vector of the lattice.
 The algorithm of Lenstra, Lenstra and Lovasz (1982) finds short vectors. The result is only a candidate,
 because the numbers are approximate. The caller must prove the relation for the exact numbers.
 """
@@ -62,8 +62,8 @@ def root_of(d: int, bits: int) -> Fraction:
 def quadratic_field(x: Fraction, bits: int) -> int | None:
     """Return a square-free integer d > 1 such that x is close to an irrational element of Q(sqrt(d)).
 
-    The element is a root of a quadratic polynomial with small integer coefficients. The value of this
-    polynomial at x is a small multiple of 2^-bits. Return None if no such element is found.
+    The element is a root of a quadratic polynomial with small integer coefficients. At x, the value of the
+    polynomial is a small multiple of 2^-bits. Return None if no such element is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

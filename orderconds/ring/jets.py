@@ -39,8 +39,8 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``. Its value is the ball ``value``. The partial derivative
-        with this index is 1, and all others are 0."""
+        """Return the variable with index ``place`` and with the ball ``value`` as its value. The partial
+        derivative with index ``place`` is 1, and all other partial derivatives are 0."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:

@@ -1,9 +1,9 @@
 """Laurent polynomials over Q: polynomials in which negative powers of the variables are allowed.
 
-This ring is used to expand conditions for a fixed number of stages. The formulas of some families (``sprk``,
-``vcg``) contain divisions by the weights b_i, which are variables of the ring. An element is a flint
-polynomial divided by a monomial, in lowest terms. Hence equal elements have equal numerators and equal
-denominators.
+Conditions for a fixed number of stages are expanded in the ring of Laurent polynomials. The formulas of some
+families (``sprk``, ``vcg``) contain divisions by the weights b_i. The weights are variables of the ring. An
+element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements have equal
+numerators and equal denominators.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times a monomial. ``exponents`` contains the exponents of the variables, which
-        must not be negative."""
+        """Return ``scale`` times a monomial. ``exponents`` contains the exponents of the variables. The
+        exponents must not be negative."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
@@ -67,7 +67,7 @@ class LaurentPolynomials:
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Return the same text as :meth:`text`. The coefficients are exact, so ``digits`` is ignored."""
+        """Return the result of :meth:`text`. The coefficients are exact, so ``digits`` is ignored."""
         return self.text(x)
 
     def _render(self, exponents: Exponents, c: fmpq) -> str:

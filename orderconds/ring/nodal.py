@@ -12,8 +12,8 @@ more properties of the method:
 - The polynomial of each vector A c^k has rational coefficients.
 - Each number sum_i b_i c_i^k is rational.
 
-Order conditions of such a method can be computed with rational polynomials. This is faster than arithmetic in
-a large number field: five Radau nodes generate a field of degree 24.
+Order conditions of such a method can be computed with rational polynomials. Rational arithmetic is faster
+than arithmetic in a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
 number field. For a collocation method, multiplication by A maps a polynomial p to its integral from 0 to z,
@@ -50,14 +50,14 @@ class NodalAlgebra:
     scalar product with the weights is the integral of p from 0 to 1. For other methods, two attributes store
     corrections to the integrals:
 
-    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by this
+    - ``corrections[kind]``: a list of pairs (k, d) for the matrix with index ``kind``. Multiplication by the
       matrix maps z^k to the sum of z^(k+1)/(k+1) and the polynomial d, modulo M.
     - ``moments``: a list of pairs (k, d). The scalar product of the weights with the vector of the powers
       c_i^k is 1/(k+1) + d.
 
     Pairs with d = 0 are omitted.
 
-    The polynomials have the type ``fmpq_poly``. Their degree is below the number of stages.
+    The polynomials have the type ``fmpq_poly`` and a degree below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -97,7 +97,8 @@ class NodalAlgebra:
         return image
 
     def weigh(self, x: fmpq_poly) -> fmpq:
-        """Return the number b^T v. Here b contains the weights, and v is the vector that x represents."""
+        """Return the number b^T v. Here b is the vector of the weights, and v is the vector that x
+        represents."""
         total = x.integral()(1)
         for k, correction in self.moments:
             total = total + correction * x[k]
@@ -125,7 +126,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
     """Return the :class:`NodalAlgebra` of a method. The nodes are c_i = sum_j a_ij, where the a_ij are the
     entries of the first matrix.
 
-    The result is None in each of these cases:
+    The result is None in each of the following cases:
 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
@@ -142,7 +143,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. Two keys are equal if their coefficients are the same Python objects."""
+    """A cache key for a method. Two keys are equal if the coefficients of both methods are identical Python
+    objects."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b

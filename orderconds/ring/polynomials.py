@@ -41,7 +41,7 @@ class Polynomials:
         return hash(self.names)
 
     def generator(self, name: str) -> fmpq_mpoly:
-        """Return the variable with this name."""
+        """Return the variable with the name ``name``."""
         return self.generators[self.names.index(name)]
 
     def rational(self, p: int, q: int = 1) -> fmpq_mpoly:

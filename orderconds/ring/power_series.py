@@ -1,7 +1,7 @@
 """Truncated power series in the step size h, over any base ring.
 
-If one step of a method is computed with these series, the result is the Taylor expansion of the numerical
-solution in h.
+If one step of a method is computed with truncated power series, the result is the Taylor expansion of the
+numerical solution in h.
 """
 
 from __future__ import annotations
@@ -94,7 +94,8 @@ class PowerSeries:
 class Series:
     """A truncated power series. ``coefficients[k]`` multiplies h^k.
 
-    Arithmetic operators accept series of the same ring, elements of the base ring, and integers.
+    The second operand of an arithmetic operator is a series of the ring, an element of the base ring, or an
+    integer.
     """
 
     __slots__ = ("coefficients", "ring")
@@ -156,7 +157,7 @@ class Series:
     def reciprocal(self) -> Series:
         """Return the series y = 1/x for this series x. The constant term of x must have an inverse.
 
-        Let x_n and y_n be the coefficients of h^n in x and y. They satisfy y_0 = 1/x_0 and
+        Let x_n and y_n be the coefficients of h^n in x and y. Then y_0 = 1/x_0, and
         y_n = -y_0 (x_1 y_{n-1} + ... + x_n y_0) for n > 0.
         """
         unit = self.coefficients[0]

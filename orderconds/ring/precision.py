@@ -1,4 +1,4 @@
-"""Control of flint's working precision, which is a global variable of the process.
+"""Control of flint's working precision. The working precision is a global variable of the process.
 
 The project changes the working precision only in blocks ``with precision(bits)``. At the end of a block, the
 previous precision is restored.

@@ -17,7 +17,7 @@ Element = Any
 """An element of a ring, or a Python ``int``. Some rings use flint, mpmath or NumPy objects as elements."""
 
 Key = tuple[Any, ...]
-"""A hashable sort key of an element. The keys of elements of the same ring can be compared."""
+"""A hashable sort key of an element. Keys can be compared if their elements belong to one ring."""
 
 
 class Ring(Protocol):
@@ -38,7 +38,7 @@ class Ring(Protocol):
         """Return x as text. If the grammar of tableau files can express x, the text follows this grammar."""
 
     def key(self, x: Element) -> Key:
-        """Return a hashable sort key. Equal elements of this ring have equal keys."""
+        """Return a hashable sort key. Equal elements have equal keys."""
 
     def approximate(self, x: Element, digits: int = 20) -> str:
         """Return x as a decimal, correctly rounded to ``digits`` significant digits."""

@@ -51,8 +51,8 @@ def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
 
 
 def _echelon(columns: Sequence[Residue]) -> tuple[nmod_mat, tuple[int, ...]]:
-    """Return the reduced echelon form of the matrix with these columns, and the indices of the pivot
-    columns."""
+    """Return two values: the reduced echelon form of the matrix with the columns ``columns``, and the indices
+    of the pivot columns."""
     matrix = np.stack([column.values for column in columns], axis=1)
     samples, width = matrix.shape
     reduced, rank = nmod_mat(samples, width, matrix.ravel().tolist(), columns[0].ring.prime).rref()

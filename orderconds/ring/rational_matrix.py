@@ -11,7 +11,7 @@ Row = Sequence[Fraction | int]
 
 
 def rank(rows: Sequence[Row]) -> int:
-    """Return the rank of the matrix with these rows. The rows must have equal lengths.
+    """Return the rank of the matrix with the rows ``rows``. The rows must have equal lengths.
 
     >>> rank([[1, 2], [Fraction(1, 2), 1]])
     1
@@ -20,12 +20,12 @@ def rank(rows: Sequence[Row]) -> int:
 
 
 def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction]]]:
-    """Yield a basis of the kernel of the matrix with these rows and ``width`` columns. A basis vector is a
-    list of pairs (index, entry) of its non-zero entries.
+    """Yield a basis of the kernel of the matrix with the rows ``rows`` and ``width`` columns. A basis vector
+    is given as a list with a pair (index, entry) for each non-zero entry.
 
     A column of the matrix is a pivot column if it is not a linear combination of the columns to its left. For
-    each column k that is not a pivot column, the basis contains one vector. The first pair of this vector is
-    (k, 1). The indices in the other pairs are indices of pivot columns.
+    each column k that is not a pivot column, the basis contains one vector with the first pair (k, 1).
+    The indices in the other pairs are indices of pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

@@ -10,7 +10,7 @@ from orderconds.ring.precision import precision
 
 
 class Rationals:
-    """The field Q. Its only instance is :data:`QQ`.
+    """The field Q. The only instance of this class is :data:`QQ`.
 
     >>> QQ.text(QQ.rational(1, 6) + QQ.rational(1, 3) * 2)
     '5/6'

@@ -1,4 +1,4 @@
-"""Vectors of residues modulo a prime. These vectors are used to count independent order conditions.
+"""Vectors of residues modulo a prime, used to count independent order conditions.
 
 A vector contains the values of one quantity in many random tableaux. The quantity is, for example, a
 coefficient of the tableau or the left-hand side of an order condition. The value in one tableau is a sample.

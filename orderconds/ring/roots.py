@@ -31,7 +31,7 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
     """Return a monic irreducible factor of the polynomial ``minpoly``, and the index of a real root of the
-    factor. Both polynomials are lists of coefficients, by ascending powers.
+    factor. The factor and ``minpoly`` are lists of coefficients, by ascending powers.
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
     interval does not contain exactly one root. The real roots of the factor are numbered from 0, in

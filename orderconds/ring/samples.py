@@ -65,8 +65,9 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. Vectors
-        of samples and their coefficient lists have the same linear dependences."""
+        """Return the ``count`` coefficients of the polynomial that represents x, by ascending powers. A
+        linear dependence of vectors of samples is also a linear dependence of their coefficient lists, and
+        conversely."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

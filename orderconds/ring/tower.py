@@ -10,9 +10,9 @@ steps:
 3. Insert x = b into c. The result is a real number r. Choose the irreducible factor with the root r. Balls
    around r exclude the other factors.
 
-The number r generates K(b). Therefore the degree of the chosen factor is the degree of K(b) over Q. If K has
-the same degree, then K contains b, and K is not extended. For example, if K contains sqrt(2), then sqrt(8) is
-represented as 2 sqrt(2).
+The number r generates K(b). Therefore the degree of the chosen factor is the degree of K(b) over Q. If K(b)
+and K have equal degrees, then K contains b, and K is not extended. For example, if K contains sqrt(2), then
+sqrt(8) is represented as 2 sqrt(2).
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Tower:
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
         """Return the current field, and a function that converts the elements of this tower to elements of
-        the field. If the degree is 1, the returned field is QQ."""
+        the current field. If the current field has degree 1, the returned field is QQ."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -196,8 +196,8 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Find an element c that generates the algebra K[x]/(p) over Q. Return a number m that defines c, and the
-    :class:`_Relation` of c. Here K = Q(a) is ``field``, and p is the polynomial x^k - sum_j powers[j] x^j
+    """Find an element c that generates the algebra K[x]/(p) over Q. Return the value m that defines c, and
+    the :class:`_Relation` of c. Here K = Q(a) is ``field``, and p is the polynomial x^k - sum_j powers[j] x^j
     with k = len(powers).
 
     Let b be the residue class of x. If m is an integer, then c = b + m a. If m is None, then c = a b.
@@ -230,7 +230,7 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
     """Return the product of an element of the algebra K[x]/(p) and c. See :func:`_primitive` for K, p, b and
-    c. Here ``multiplier`` is the number m that defines c.
+    c. The argument ``multiplier`` is the value m that defines c.
 
     The element is given by the list ``vector`` of its coefficients of 1, b, b^2, and so on.
     """

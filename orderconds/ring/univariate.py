@@ -1,7 +1,7 @@
 """Polynomials over Q in one variable, for iterated integrals over [0, 1].
 
-The polynomials have python-flint's type ``fmpq_poly``, which supports ``+ - *``. This type always prints the
-variable as x.
+The polynomials have python-flint's type ``fmpq_poly``, with the operators ``+ - *``. Python-flint always
+prints the variable as x.
 """
 
 from __future__ import annotations

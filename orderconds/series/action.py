@@ -35,8 +35,8 @@ Stages = list[Element]
 """A vector with one ring element for each stage of the method."""
 
 Exponential = tuple[tuple[int, Element], ...]
-"""The exponent of one exponential: a linear combination of the stage velocities. It is stored as pairs
-(stage, coefficient), without zero coefficients."""
+"""The exponent of one exponential: a linear combination of the stage velocities, stored as pairs
+(stage, coefficient). Pairs with the coefficient zero are omitted."""
 
 Row = tuple[Exponential, ...]
 """A group element that is a product of exponentials. The first exponential in the tuple acts first."""
@@ -45,9 +45,9 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method, with coefficients in ``ring``. Computed coefficients are cached.
 
-    The weights b_i must be invertible in ``ring``. An argument ``row`` selects a group element. If ``row`` is
-    the index of a stage, it selects the group element of this stage. If ``row`` is the number of stages, it
-    selects the group element of the update.
+    The weights b_i must be invertible in ``ring``. An argument ``row`` selects a group element. The index of
+    a stage selects the group element of the stage. The number of stages selects the group element of the
+    update.
 
     The example computes coefficients of the implicit midpoint rule.
 
@@ -151,7 +151,7 @@ class ActionSeries(ABC):
     def condition(self, tree: Velocity) -> Element:
         """Return the left-hand side of the order condition of a tree t: the number sum_i b_i tau_t(i).
 
-        This number is the coefficient of t in the update. It is also the coefficient of the elementary
+        The left-hand side is the coefficient of t in the update, and also the coefficient of the elementary
         Hamiltonian of t in the generating function of the step. To save memory, this method does not cache
         the coefficients tau_t(i).
         """

@@ -38,10 +38,10 @@ def velocity_count(vertices: int) -> int:
 
 
 def class_count(vertices: int) -> int:
-    """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
+    """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in one
     class if they differ only in the choice of the root.
 
-    Vertices in a subtree of the form ``L(w)`` cannot be the root. The other vertices are possible roots. Take
+    Vertices in a subtree of the form ``L(w)`` cannot be the root. All other vertices are possible roots. Take
     one tree of each class. Let R be the number of possible roots in these trees, and let E be the number of
     edges between possible roots. Equivalent roots count once, and equivalent edges count once. The number of
     classes is R - E, because each class has one more root than edges.

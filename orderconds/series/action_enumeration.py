@@ -6,7 +6,7 @@ Each vertex of a tree represents a derivative of the Hamiltonian H.
 The cost of a tree measures how difficult its order condition is to read. The cost of a subtree is at most the
 cost of the whole tree. The trees are enumerated in several passes with increasing limits on the cost. Later
 passes are rarely necessary. For example, there are 6331 g-valued trees with six vertices. For most methods,
-the conditions of a few hundred of these trees imply the other conditions.
+the conditions of a few hundred trees imply the conditions of all 6331 trees.
 """
 
 from __future__ import annotations
@@ -120,7 +120,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
     """Return pairs (added cost, tree) for g-valued trees with ``vertices`` vertices, sorted by added cost.
-    The added cost is the amount that the tree adds to the cost of a word. It is at most ``limit``."""
+    The added cost is the amount that the tree adds to the cost of a word. Only trees with an added cost of at
+    most ``limit`` are returned."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()

@@ -5,12 +5,13 @@ over times replace sums over stages:
 
 - ``Phi_w(s)``, for a word w with the letters t_1, ..., t_k, is the integral of the product
   ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times with 0 <= s_1 <= ... <= s_k <= s.
-- ``psi_{L(w)}(s)`` is the integral of the same product over all times with 1 >= s_1 >= ... >= s_k >= s.
+- ``psi_{L(w)}(s)`` is the integral of the product ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)`` over all times
+  with 1 >= s_1 >= ... >= s_k >= s.
 - ``psi_{H(u*v|M)}(s)`` is the integral of ``Phi_u(s) Phi_v(s, s') prod_{p in M} psi_p(s')`` over the times s'
   from s to 1.
 
-Here ``Phi_v(s, s')`` is the same integral as ``Phi_v(s')``, but with the lower limit s in place of 0. It is
-equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word ``v[:k]`` contains the first k
+If the lower limit s replaces 0 in the integral ``Phi_v(s')``, the result is ``Phi_v(s, s')``. This integral
+is equal to ``sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``. The word ``v[:k]`` contains the first k
 letters of v, and ``v[k:]`` contains the remaining letters.
 """
 
@@ -95,7 +96,7 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the right-hand side of the order condition of a tree t. It is the integral of tau_t(s) over
+    """Return the right-hand side of the order condition of a tree t: the integral of tau_t(s) over
     0 <= s <= 1.
 
     >>> from orderconds.series.action_enumeration import velocities

@@ -162,8 +162,8 @@ class ActionFields:
         return components
 
     def transported(self, word: Word) -> Coordinates:
-        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``. Here xi_i is
-        the elementary velocity of letter i of the word."""
+        """Return the coordinates of the covector that maps x to ``<mu, ad xi_1 ... ad xi_k x>``. The vector
+        xi_i is the elementary velocity of letter i of the word, and k is the number of letters."""
         values = []
         for unit in self.units:
             x = unit
@@ -174,7 +174,7 @@ class ActionFields:
 
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
         """Return the coefficients of h^(p+1) in the local errors of position and momentum, for a method of
-        order p. Here h is the step size.
+        order p with the step size h.
 
         The first value is a matrix for the position. The second value contains the coordinates of a covector
         for the momentum. ``defects`` maps each word with p + 1 vertices to a difference: the coefficient of

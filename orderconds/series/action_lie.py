@@ -6,8 +6,8 @@ b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The coefficients of g*-valued trees (:mod:`orderconds.series.action`) depend on the coefficients of words
-u x v. Here u and v are words, and the letter x is a variation of the velocity of one stage j: the sum
-xi_j + x replaces xi_j. The arguments ``before`` and ``after`` of the functions are the words u and v.
+u x v. Here u and v are words. The letter x is a variation of the velocity of one stage j: the sum xi_j + x
+replaces xi_j. The arguments ``before`` and ``after`` of the functions are the words u and v.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 X^m acts first."""
 
 Varied = dict[int, Element]
-"""A map from the index j of a stage to the coefficient of a word u x v. Here the letter x is a variation of
+"""A map from the index j of a stage to the coefficient of a word u x v, where the letter x is a variation of
 the velocity xi_j. The map need not contain zero coefficients."""
 
 
@@ -282,9 +282,9 @@ class PadeActionSeries(MuntheKaasActionSeries):
     """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp. The
     inverse of the truncated dexp replaces dexpinv.
 
-    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j =
-    xi_j, where xi_j is the velocity of stage j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of
-    X, and r is ``cutoff``.
+    The exponent of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation
+    dexp_{(r),X_j} v_j = xi_j, where xi_j is the velocity of stage j. The map dexp_{(r),X} is the series
+    dexp_X, truncated after the r-th power of X. The number r is ``cutoff``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -300,8 +300,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
     """Return the terms with at most ``most`` factors X in the solution v of the equation dexp_{(r),X} v = xi.
-    Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``. A triple (q, m, n)
-    represents the term q X^n xi X^m.
+    The map dexp_{(r),X} is the series dexp_X, truncated after the r-th power of X. The number r is
+    ``cutoff``. A triple (q, m, n) represents the term q X^n xi X^m.
 
     Let S(z) be the sum of z^j/(j+1)! for j = 0, ..., r, and let q_k be the coefficient of z^k in the power
     series of 1/S(z). Then q = (-1)^m comb(k, m) q_k for k = m + n. Terms with q = 0 are omitted.

@@ -1,9 +1,9 @@
 """Selection of independent action conditions. The left-hand sides of the conditions are evaluated modulo a
-prime, for many random methods and for the exact flow. The rank of the matrix of these values shows which
-conditions are independent.
+prime, for many random methods and for the exact flow. These values and their products form the columns
+of a matrix. The pivot columns show which conditions are independent.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
-conditions up to order n. The polynomial must be the same for every method **and for the exact flow**. Then
+conditions up to order n. One polynomial must be valid for every method **and for the exact flow**. Then
 every method that satisfies the other conditions also satisfies the dependent condition.
 
 The trees are considered one after another, simplest first. A tree is selected if its condition does not
@@ -28,8 +28,9 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that creates many random methods of a family and returns one action series for all of them. Each
-value of the series is a vector with one residue for each method. A random method is also called a sample."""
+"""A function that creates many random methods of a family and returns one action series for all these
+methods. Each value of the series is a vector with one residue for each method. A random method is also
+called a sample."""
 
 SPARE_SAMPLES = 24
 """The number of samples minus the largest possible rank (:func:`_largest_rank`). With fewer samples,
@@ -43,9 +44,9 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     """Return the trees with independent conditions, as one tuple for each of the orders 1, ..., ``order``.
 
     The function selects trees modulo each of two primes, and returns the larger selection. Conditions that
-    are independent modulo a prime are also independent over Q. The selection is very probably complete. It is
-    certainly complete if the number of trees is equal to the upper bound of
-    :func:`~orderconds.series.action_counts.tree_counts`.
+    are independent modulo a prime are also independent over Q. The selection is very probably complete. If
+    the number of trees is equal to the upper bound of :func:`~orderconds.series.action_counts.tree_counts`,
+    the selection is certainly complete.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -74,9 +75,9 @@ def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
     """Return a map from each tree to a vector of numbers modulo ``prime``. The last entry is the right-hand
-    side of the condition of the tree. The other entries are the left-hand sides, one for each random method.
+    side of the condition of the tree. All other entries are left-hand sides, one for each random method.
 
-    Calls that differ only in the list of trees use the same random methods.
+    The random methods do not depend on ``trees``.
 
     >>> from functools import partial
     >>> from orderconds.families import get
