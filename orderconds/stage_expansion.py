@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""If the estimated number of terms exceeds this number, the expansion is refused. The computation of
-this number of terms needs about 500 MB of memory."""
+"""If the estimated number of terms exceeds MAX_COMPUTED, the expansion is refused. The computation of
+MAX_COMPUTED terms needs about 500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms of all expanded conditions together. The text of this number of terms has
-about 20 MB. Writing the text needs 1.5 GB of memory."""
+"""The largest number of terms of all expanded conditions together. The text of MAX_TERMS terms has about 20
+MB. Writing the text needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:

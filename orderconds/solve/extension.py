@@ -1,10 +1,10 @@
 """Continuous extensions (dense output) of Runge-Kutta methods, from linear equations.
 
-The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. Its
-weights are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p, where i is the number of the stage.
-Let t be a tree with |t| nodes and the density gamma(t). The elementary weight of t is sum_i b_i Phi_i(t),
-where Phi_i(t) depends only on the matrix A. The extension has order q if the following equations hold for all
-trees t with at most q nodes:
+The extension approximates the solution at the time t_0 + theta h within a step from t_0 to t_0 + h. The
+weights of the extension are polynomials in theta: b_i(theta) = sum_p beta_{p,i} theta^p, where i is the
+number of the stage. Let t be a tree with |t| nodes and the density gamma(t). The elementary weight of t is
+sum_i b_i Phi_i(t), where Phi_i(t) depends only on the matrix A. The extension has order q if the following
+equations hold for all trees t with at most q nodes:
 
 - sum_i beta_{p,i} Phi_i(t) = 1/gamma(t) for p = |t|
 - sum_i beta_{p,i} Phi_i(t) = 0 for all other p

@@ -1,9 +1,9 @@
 """Damped least squares (Levenberg 1944; Marquardt 1963) for many starting points at once.
 
 The damping parameter is a factor times the norm of the residual. The factor is reduced after a successful
-step and increased after a failed step. This damping gives quadratic convergence near a solution, even if the
-solution is not isolated. The assumption is a local error bound: the distance to the set of solutions is at
-most a constant times the norm of the residual (Fan and Yuan 2005).
+step and increased after a failed step. Near a solution, assume a local error bound: the distance to the set
+of solutions is at most a constant times the norm of the residual. The convergence is then quadratic, even if
+the solution is not isolated (Fan and Yuan 2005).
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 (k, m, n)."""
 
 SOLVED = 1e-13
-"""Iterations stop if the norm of the residual is at most SOLVED, which is at the level of rounding errors."""
+"""Iterations stop if the norm of the residual is at most SOLVED. A residual of this size can result from
+rounding errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:

@@ -188,8 +188,8 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient, such as a21. If there are more than two indices, or if an index is
-    above 9, the indices are separated by ``_``, as in a10_1.
+    """Return the name of a coefficient: the letter and the indices, as in a21. If there are more than two
+    indices, or if an index is above 9, the indices are separated by ``_``, as in a10_1.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')

@@ -1,5 +1,5 @@
-"""The ansatz of low-storage (2N) schemes, which store two registers. The unknowns are the coefficients A_i
-and B_i.
+"""The ansatz of low-storage (2N) schemes. Each scheme stores two registers. The unknowns are the coefficients
+A_i and B_i.
 
 By a theorem, a 2N scheme has the same order on a Lie group as on a vector space
 (:mod:`orderconds.proof.equations`). A search therefore solves the order conditions of Runge-Kutta methods. Up
@@ -21,9 +21,9 @@ CENTRE = {"A": -0.8, "B": 0.25}
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of low-storage schemes, which store two registers K and Y. The differential equation
-    is Y' = F(Y) Y, and h is the step size. Stage i replaces K by A_i K + F(Y). After that, stage i replaces Y
-    by exp(h B_i K) Y. The coefficient A_1 is zero.
+    """Return the ansatz of low-storage schemes. Each scheme stores two registers, K and Y. The differential
+    equation is Y' = F(Y) Y, and h is the step size. Stage i replaces K by A_i K + F(Y). After that, stage i
+    replaces Y by exp(h B_i K) Y. The coefficient A_1 is zero.
 
     >>> low_storage(families.get("cf"), Spec(stages=2, low_storage=True), "low-storage", "m").free
     ('B1', 'B2', 'A2')
@@ -66,7 +66,7 @@ def solved_family(family: Family) -> Family:
     """Return the family whose order conditions are solved in a search for low-storage (2N) schemes of
     ``family``.
 
-    A 2N scheme has the same order in the returned family and in ``family``
+    The order of a 2N scheme in the returned family equals its order in ``family``
     (:mod:`orderconds.proof.equations`).
 
     Raises :class:`~orderconds.errors.InputError` if no such family is known for ``family``.

@@ -221,9 +221,9 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
     """Return constraints that make sums of coefficients equal to the coefficients of the Gauss method.
 
-    Let a_ij and b_j be the coefficients of the Gauss method with the same number of stages. In the
-    exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the update,
-    the coefficients of stage j add up to b_j.
+    Let s be the number of stages. Let a_ij and b_j be the coefficients of the Gauss method with s stages. In
+    the exponentials of stage i, the coefficients of stage j add up to a_ij. In the exponentials of the
+    update, the coefficients of stage j add up to b_j.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
@@ -316,8 +316,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splitting methods. These methods compose flows of two vector fields T and V. The
-    first flow and the last flow are flows of T.
+    """Return the ansatz of splitting methods. A splitting method composes flows of two vector fields T and V.
+    The first flow and the last flow are flows of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -419,8 +419,8 @@ TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is a label,
-    such as ``"rk"``.
+    """Return the ansatz for methods of a family that satisfy the specification. ``family`` is the label of
+    the family, such as ``"rk"``.
 
     Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
     the family does not support an option.

@@ -28,7 +28,7 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Create problems with :func:`find_problem`, which caches them.
+    """The equations of one search. Create a problem with :func:`find_problem`. This function caches problems.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -63,9 +63,9 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return order conditions that are sufficient for the required order.
 
-        In a search for symmetric methods of even order p, the conditions of order p are omitted. These
-        conditions follow from the conditions of lower order, because symmetric methods have even order
-        (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
+        In a search for symmetric methods of even order p, the conditions of order p are omitted. The
+        conditions of order p follow from the conditions of lower order, because symmetric methods have even
+        order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -77,7 +77,7 @@ class Problem:
         return Tape(self.trace(), len(self.ansatz.free))
 
     def trace(self) -> list[Trace]:
-        """Return the residuals of the conditions as traces, which record the arithmetic operations."""
+        """Return the residuals of the conditions as traces. A trace records the arithmetic operations."""
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
@@ -171,7 +171,8 @@ class Problem:
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
         """Return ``count`` random starting points near the point ``ansatz.centre``. If ``ansatz.centre`` is
-        None, use a point with equal weights b_i. All other coefficients of this point are zero."""
+        None, let n be the number of unknown coefficients whose names begin with b or g. The starting points
+        are then near the point at which these coefficients are 1/n, and all others are zero."""
         free = self.ansatz.free
         if self.ansatz.centre is not None:
             centre = np.array([self.ansatz.centre[name] for name in free])

@@ -34,7 +34,7 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search. Its truth value is True if a method was found.
+    """The result of a search. In a condition, the result counts as True if a method was found.
 
     - ``tableau``: the method, or None
     - ``certificate``: ``exact`` if the order is proved in exact arithmetic, ``ball`` if it is proved in

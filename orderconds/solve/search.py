@@ -3,8 +3,8 @@ several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch. The search uses
 the results in the order of the batch numbers. The result of a search therefore depends neither on the number
-of processes nor on interruptions. Each worker process receives the options of the search and compiles the
-equations from these options.
+of processes nor on interruptions. Each worker process receives the options of the search, and compiles the
+equations itself.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ higher orders, the principal error is too expensive to compute it for every solu
 
 
 SINGULAR = 1e6
-"""This number is added to the score of a singular solution, to rank it after the regular solutions. At a
-singular solution, the gradients of the conditions are linearly dependent."""
+"""SINGULAR is added to the score of a singular solution. The regular solutions of all batches then have lower
+scores. At a singular solution, the gradients of the conditions are linearly dependent."""
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,8 @@ Places = NDArray[np.int64]
 class _Level:
     """A group of operations of one kind that do not depend on each other.
 
-    One array contains the results of all operations of the program, with one row for each operation. The
-    group fills the rows ``start`` to ``stop`` - 1. ``left`` and ``right`` contain the row numbers of the
+    One array contains the results of all operations of the program. The array has one row for each operation.
+    The group fills the rows ``start`` to ``stop`` - 1. ``left`` and ``right`` contain the row numbers of the
     first and the second operands.
     """
 
@@ -43,7 +43,7 @@ class _Level:
 class Tape:
     """A recorded program that computes outputs from ``width`` inputs, in double precision.
 
-    All ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`. This ring records each
+    All ``outputs`` are elements of one ring :class:`~orderconds.ring.traces.Traces`. The ring records each
     arithmetic operation. The recorded operations are the program.
 
     >>> from orderconds.ring.traces import Traces

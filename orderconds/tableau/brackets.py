@@ -1,4 +1,5 @@
-"""Lie algebra elements as text in tableau files, such as ``"[2,1]"``, ``"[a, [1, b]]"`` or ``"S*S*S"``.
+"""The text of a Lie algebra element in a tableau file. Examples are ``"[2,1]"``, ``"[a, [1, b]]"`` and
+``"S*S*S"``.
 
 The number i denotes the vector field at node i of a quadrature formula. A name denotes an element whose
 definition precedes it in the file. The commutator ``[x,y]`` is the product ``x*y`` minus the product ``y*x``.
@@ -70,7 +71,7 @@ def parse(text: str, where: str) -> Term:
 
 
 def spell(term: Term) -> str:
-    """Return the text of a term. This function is the inverse of :func:`parse`.
+    """Return the text of a term. The function :func:`parse` converts the text to the term again.
 
     >>> spell(parse("[ 2, [1,a] ]", ""))
     '[2,[1,a]]'

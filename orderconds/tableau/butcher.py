@@ -102,7 +102,7 @@ def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None
     """Return the entries of a Butcher array as text, in two lists of rows.
 
     In the first list, row i contains the node c_i and the coefficients a_ij of stage i. Zeros at the end of
-    these rows are blank. The second list contains the rows of weights. Return None if the method has no
+    such a row are blank. The second list contains the rows of weights. Return None if the method has no
     Butcher array, or has more than :data:`WIDEST` stages.
     """
     method = tableau.method

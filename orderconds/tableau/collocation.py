@@ -2,7 +2,7 @@
 
 Let s be the number of stages. The nodes c_1, ..., c_s are the roots of the s-th Legendre polynomial or of a
 related polynomial. The weights b_1, ..., b_s integrate polynomials of degree below s exactly. Let l_j be the
-Lagrange polynomial of the node c_j. The matrix A follows from one of these rules:
+Lagrange polynomial of the node c_j. The kind of the method determines the rule for the matrix A:
 
 ============  ============================================================================================
 rows          a_ij is the integral of l_j from 0 to c_i (Gauss, Radau IIA, Lobatto IIIA)
@@ -88,8 +88,8 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature that omits one node. The index ``left_out`` of this node is
-        counted from 0. The omitted node has the weight zero.
+        """Return the weights of the quadrature that omits one node. ``left_out`` is the index of the omitted
+        node, counted from 0. The omitted node has the weight zero.
 
         Let e_j be the leading coefficient of the Lagrange polynomial of node j. If a polynomial p has a
         degree below s - 1, the sum of all e_j p(c_j) is zero. A multiple of (e_1, ..., e_s) is subtracted
@@ -188,7 +188,8 @@ class Kind:
         return 2 if self.left and self.right else 1
 
     def order(self, s: int) -> int:
-        """Return the order of the method with s stages. The quadrature on the s nodes has the same order."""
+        """Return the order of the method with s stages. The result is also the order of the quadrature on the
+        s nodes."""
         return 2 * s - self.left - self.right
 
 
@@ -213,8 +214,8 @@ def construct(kind: str, stages: int) -> Tableau:
     """Return the method of the given kind with the given number of stages. The coefficients are elements of
     the number field that the nodes generate.
 
-    Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` for too few stages, or if the
-    degree of this number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
+    Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` if ``stages`` is too small, or
+    if the degree of the number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
 
     >>> construct("radau2a", 2).method
     RungeKutta(A=((5/12, -1/12), (3/4, 1/4)), b=(3/4, 1/4))
@@ -260,8 +261,8 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     square roots.
 
     If square roots do not suffice, the roots of an irreducible polynomial get the names c1, c2, ... in
-    ascending order. The largest root gets no name. It follows from the other roots and the sum of all roots,
-    which is known from the coefficients.
+    ascending order. The largest root gets no name: it is the sum of all roots minus the other roots. The
+    coefficients of the polynomial determine the sum of all roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

@@ -159,8 +159,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Check the claims and return them as a dictionary. The value of a family, such as "rk", is the claimed
-    order. The value of a property, such as "explicit", is True or False."""
+    """Check the claims and return the claims as a dictionary. If a key is a family ("rk"), the value is the
+    claimed order. If a key is a property ("explicit"), the value is True or False."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

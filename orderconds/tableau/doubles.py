@@ -6,8 +6,8 @@ double x with the radius ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a
 ``2^-53 |x|``. The factor ``UNITS`` allows for several roundings, because many coefficients are results of a
 computation.
 
-A Python float with at most :data:`SHORT` significant bits, such as 0.5, 3.0 or -0.375, counts as an exact
-number. Very large and very small numbers are exceptions (:data:`LARGE`).
+A Python float counts as an exact number if it has at most :data:`SHORT` significant bits. Examples are 0.5,
+3.0 and -0.375. Very large and very small numbers are exceptions (:data:`LARGE`).
 """
 
 from __future__ import annotations
@@ -79,8 +79,9 @@ def is_double(text: str | int) -> bool:
 
 
 def decimal_text(text: str) -> str:
-    """Convert the text of a double, such as ``0.1d``, to a decimal without suffix and exponent. The decimal
-    has at least :data:`PRINTED` significant digits. A program that reads the decimal obtains the same double.
+    """Convert the text of a double, such as ``0.1d``, to a decimal without suffix and without exponent. The
+    decimal has at least :data:`PRINTED` significant digits. A program that reads the decimal obtains the same
+    double.
 
     >>> decimal_text("-0.3333333333333333d"), decimal_text("0.1d")
     ('-0.3333333333333333', '0.10000000000000001')
@@ -124,8 +125,8 @@ def is_printed(decimal: str) -> bool:
 
     - Fewer than 16 digits: the result is False.
     - 16 or 17 digits: the result is True.
-    - From 18 to 1200 digits: the nearest double is printed with the same number of digits as the decimal. The
-      result is True if both decimals are equal.
+    - From 18 to 1200 digits: let n be the number of digits. The double nearest to ``decimal`` is printed with
+      n digits. The result is True if the printed number equals ``decimal``.
     - More than 1200 digits: the result is False.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")

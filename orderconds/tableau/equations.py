@@ -3,8 +3,8 @@ if the array is too wide.
 
 Each equation is broken into lines that fit in a column of a two-column article. If the tableau contains
 doubles, all coefficients are rounded to six digits. In every other tableau, a short coefficient is printed
-exactly. A coefficient that is long or contains a name, such as c1, is printed as a truncated decimal. Such a
-decimal ends in ``\ldots``.
+exactly. A long coefficient, or a coefficient that contains a name (for example c1), is printed as a truncated
+decimal. A truncated decimal ends in ``\ldots``.
 """
 
 from __future__ import annotations

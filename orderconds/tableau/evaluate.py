@@ -8,8 +8,8 @@ The first of these rules that applies determines the ring:
   most :data:`orderconds.ring.tower.MAX_DEGREE`, the ring is this field.
 - If the degree is larger, all coefficients are balls.
 
-The value of equal expressions in one file is the same object. Two balls that are the same object denote equal
-numbers.
+Equal expressions in one file are evaluated only once, so their values are one object. If the values of two
+coefficients are one ball object, the coefficients are equal.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """A ring in which expressions are evaluated, such as the ring of balls or a number field. If an
-    expression contains a new root, a number field is extended by this root."""
+    """A ring for the evaluation of expressions, for example the ring of balls or a number field. If an
+    expression contains a root that is not in the number field, the number field is extended by this root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return the rational number ``value`` if its uncertainty ``unit`` is zero. Otherwise, return the
@@ -65,8 +65,8 @@ def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
     """Return a ring and the values of ``expressions`` in this ring. The ring is Q, a number field, or the
-    ring of balls. The key of an expression is the position of the coefficient in the tableau file, such as
-    ``A[2][1]``. The value has the same key.
+    ring of balls. The keys of ``expressions`` are positions in the tableau file, such as ``A[2][1]``. Each
+    value has the key of its expression.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
@@ -85,7 +85,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # Evaluate unused numbers last. Their roots must not be added to the field of the coefficients.
+            # Evaluate unused numbers last, because the roots in these numbers must not be added to the field
+            # of the coefficients.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -116,8 +117,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Convert the values to elements of one field by the function ``lift``. If two keys have the same
-    object as value, the results are the same object, too."""
+    """Convert the values to elements of one field by the function ``lift``. If the values of two keys are one
+    object, the converted values are also one object."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 

@@ -7,9 +7,9 @@ condition is: the elementary weight of t, computed with the weights b_i(theta), 
 The extension has order q if the conditions of all trees with at most q nodes are satisfied (Hairer, Norsett
 and Wanner, Solving Ordinary Differential Equations I, section II.6).
 
-The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same polynomials. Let k_i be the Lie
-algebra element of stage i. The exponential of ``h sum_i b_i(theta) k_i`` maps the initial value y_0 to the
-solution at the time t_0 + theta h.
+The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the polynomials b_i(theta) of the Runge-Kutta
+method. Let k_i be the Lie algebra element of stage i. The exponential of ``h sum_i b_i(theta) k_i`` maps the
+initial value y_0 to the solution at the time t_0 + theta h.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Reading of tableau files, which are TOML files with fixed keys. An unknown key is an error."""
+"""Reading of tableau files. A tableau file is a TOML file with fixed keys. An unknown key is an error."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 class File(Struct, frozen=True):
     """The content of a tableau file. ``data`` contains the keys and values of the file. ``entry`` is an
-    object with the same values as attributes. The key ``family`` determines the class of ``entry``. All other
+    object whose attributes are these values. The key ``family`` determines the class of ``entry``. All other
     attributes are computed from ``entry``."""
 
     data: Mapping[str, object]
@@ -103,9 +103,9 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. The result is also
-    True if the file cannot be read or is not valid TOML. Such a file must not be skipped without an error
-    message.
+    """Return True if a TOML file contains one of :data:`KEYS`, the keys of tableau files. If the file cannot
+    be read or is not valid TOML, the result is also True, because the file must not be skipped without an
+    error message.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -157,8 +157,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # ``build`` reports the name of the tableau as the place of an error. Replace this name by ``where``,
-    # which is usually the path of the file.
+    # ``build`` reports the name of the tableau as the place of an error. Replace the name by ``where``,
+    # usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -198,8 +198,8 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Convert an error message of the library msgspec to an error of this package. The new message contains
-    the position of the error in the file."""
+    """The library msgspec checks keys and types. Convert an error message of msgspec to an error of this
+    package. The error contains the position in the file."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")

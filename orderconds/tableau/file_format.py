@@ -6,7 +6,7 @@ the ring depends on all coefficients. Therefore a file is read in two steps:
 1. ``coefficients`` yields every coefficient, as it is written in the file, with its position.
 2. ``build`` receives the value of every coefficient and returns the method.
 
-A position consists of a key and indices, such as ``A[2][1]``. Indices start at 1.
+A position, such as ``A[2][1]``, consists of a key and indices. Indices start at 1.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
     """The claimed order of a method for one value of ``cutoff``. Some families of methods truncate a series,
-    such as the series of dexpinv. Their option ``cutoff`` is the highest power in the truncated series."""
+    for example the series of dexpinv. The option ``cutoff`` of such a family is the highest power in the
+    truncated series."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
@@ -48,7 +49,7 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
     """The table ``[proof]`` of a file with rounded decimals. The table defines equations. The exact
-    coefficients are a solution of these equations close to the decimals. The module
+    coefficients solve the equations and are close to the decimals. The module
     :mod:`orderconds.tableau.unknowns` explains the keys."""
 
     conditions: str
@@ -68,10 +69,10 @@ the order depends on the option ``cutoff`` of the family, the value is a list of
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The base class of all formats. It defines the keys that all formats share.
+    """The base class of all formats. The class defines the keys that all formats share.
 
-    ``family`` is the name of the format, such as ``rk``. A family of methods has the same name. ``order`` is
-    the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
+    ``family``, for example ``rk``, is the name of the format and the name of a family of methods. ``order``
+    is the claimed order of the method in this family. ``numbers`` defines names for numbers (:data:`Number`).
     ``claims`` contains the claimed properties, and the claimed orders in other families (:data:`Claim`).
     """
 
@@ -85,11 +86,10 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     proof: ProofEntry | None = None
 
     in_arrays: ClassVar[bool] = False
-    """True if a tableau of this format can be stored as arrays with names
-    (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format can be stored as named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of an array. If a tableau is stored as arrays, the name identifies the format. It is empty for
-    the default format (:func:`orderconds.tableau.formats.array_format`)."""
+    """The name of an array. If a tableau is stored as arrays, this name identifies the format. For the
+    default format, ``distinctive_key`` is empty (:func:`orderconds.tableau.formats.array_format`)."""
     as_products: ClassVar[bool] = False
     """True if a tableau of this format consists of products of exponentials. If such a tableau is stored as
     arrays, the array ``exponentials`` contains the coefficients (:mod:`orderconds.exchange.arrays`)."""

@@ -39,17 +39,17 @@ MAX_DEGREE = 40
 
 
 class EmbeddedEntry(Struct, forbid_unknown_fields=True):
-    """The weights of an embedded method for an error estimate. The integer ``order`` is the order of this
-    method."""
+    """The weights of an embedded method for an error estimate. The integer ``order`` is the order of the
+    embedded method."""
 
     b: list[Coefficient]
     order: Annotated[int, Meta(ge=1)]
 
 
 class ExtensionEntry(Struct, forbid_unknown_fields=True):
-    """The weights b_i(theta) of a continuous extension. They are polynomials without a constant term. Row i
-    of ``b`` contains the coefficients of b_i, beginning with the coefficient of theta. Zeros at the end of a
-    row may be omitted."""
+    """The weights b_i(theta) of a continuous extension. Each weight is a polynomial in theta without a
+    constant term. Row i of ``b`` contains the coefficients of b_i, beginning with the coefficient of theta.
+    Zeros at the end of a row may be omitted."""
 
     b: list[list[Coefficient]]
     order: Annotated[int, Meta(ge=1)]
@@ -57,7 +57,7 @@ class ExtensionEntry(Struct, forbid_unknown_fields=True):
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "rk"``: a Butcher tableau with the matrix A and the weights b. Zeros at the end
-    of a row of A may be omitted. The nodes c are optional. They must equal the row sums of A. The key
+    of a row of A may be omitted. The nodes c are optional, and must equal the row sums of A. The key
     ``dense`` contains a continuous extension (:mod:`orderconds.tableau.extension`).
     """
 
@@ -126,8 +126,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the pair (Runge-Kutta method, embedded weights). If the file has no embedded weights, the
-        second value is None. Raises TableauError if c differs from the row sums of A. Raises the same error
-        if the embedded weights equal b."""
+        second value is None. Raises TableauError if c differs from the row sums of A, or if the embedded
+        weights equal b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -168,8 +168,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
         yield "A_hat", self.A_hat, "b_hat", self.b_hat
 
     def verify(self, where: str) -> None:
-        """Check that both tableaux have the same number of stages s, that both matrices have s rows, and that
-        no row has more than s entries."""
+        """Check that b and b_hat have the same length s, that A and A_hat have s rows, and that no row has
+        more than s entries."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.b_hat) != s:
             raise TableauError(
@@ -195,7 +195,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield from row_places(b, weights)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the pair (partitioned method, None). This format has no embedded method."""
+        """Return the pair (partitioned method, None). The second value is None, because this format has no
+        embedded method."""
         s = len(self.b)
         A, A_hat = (
             tuple(filled_row(values, f"{name}[{i + 1}]", s, ring) for i in range(s))
@@ -206,8 +207,9 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials. It acts on the value of stage ``from``, where the first stage has the
-    number 1. If the key ``from`` is missing, the product acts on y0, the value at the start of the step.
+    """A product of exponentials. ``from`` is the number of a stage, counted from 1. The product acts on the
+    value of this stage. If the key ``from`` is missing, the product acts on y0, the value at the start of the
+    step.
 
     Each row of ``exp`` defines one exponential. A row beta_1, ..., beta_s defines exp(h sum_j beta_j k_j).
     Here h is the step size, and k_j is the vector field at stage j. The exponential of the first row acts
@@ -226,9 +228,9 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A low-storage scheme. A step stores only the state Y and one element K of the Lie algebra. Stage i
-    replaces K by A_i K + F(Y), and then replaces Y by exp(h B_i K) Y. Here F is the vector field, and h is
-    the step size."""
+    """A low-storage scheme. A step stores only the state Y and one element K of the Lie algebra. Let F be the
+    vector field and h the step size. Stage i replaces K by A_i K + F(Y), and then replaces Y by exp(h B_i K)
+    Y."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -238,7 +240,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "cf"``: a commutator-free method. The file contains either stages and an update,
     or a low-storage scheme. A low-storage scheme is converted to stages and an update.
 
-    ``embedded`` is a second update with the same stages, for an error estimate.
+    ``embedded`` is a second update for an error estimate. Both updates use the same stages.
     """
 
     stage: list[StageEntry] = field(default_factory=list)
@@ -357,9 +359,10 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau that is stored as arrays with these ``names``. A format fits if
-    ``names`` contains the ``distinctive_key`` of the format. If several formats fit, return the format whose
-    name comes first in the alphabet. If no format fits, return the default format, ``composition``.
+    """Return the name of the format of a tableau that is stored as arrays. ``names`` contains the names of
+    the arrays. A format fits if ``names`` contains the ``distinctive_key`` of the format. If several formats
+    fit, the result is the first name in the alphabet. If no format fits, the result is ``composition``, the
+    default format.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

@@ -19,8 +19,8 @@ The decimal ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a b
 denotes a ball whose radius is defined in :mod:`orderconds.tableau.doubles`. The text ``a^b^c`` is an error,
 because it is ambiguous: it may mean (a^b)^c or a^(b^c).
 
-This module limits the length of the text, the size of the exponents and the depth of the parentheses. The
-module :mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
+For each coefficient, this module limits the length of the text, the size of the exponents and the depth of
+the parentheses. The module :mod:`orderconds.tableau.evaluate` limits the size of intermediate results.
 """
 
 from __future__ import annotations
@@ -323,7 +323,7 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Round the decimal ``content`` to the nearest double, and return the ball of this double.
+        """Round the decimal ``content`` to the nearest double, and return a ball around this double.
 
         The function :func:`~orderconds.tableau.doubles.radius` defines the radius. For the double 0, the
         radius is zero. Raises TableauError if the decimal is too large for a double."""

@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 COLUMN = 210.0
-"""The available width of a line, in points. It is the column width of the LaTeX class ``article`` (229
-points), reduced by the indentation of a paragraph."""
+"""The available width of a line, in points. COLUMN is the column width of the LaTeX class ``article`` (229
+points) minus the indentation of a paragraph."""
 
 INDENT = r"\quad "
 
@@ -129,8 +129,8 @@ def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
 
 def lines(left: str, parts: Sequence[str], free: float) -> Iterator[str]:
     r"""Yield the lines of an equation for the LaTeX environment ``aligned``. ``left`` is the left-hand side.
-    The strings ``parts`` form the right-hand side. A line break is allowed only between two of these strings.
-    ``free`` is the available width for the right-hand side, in points.
+    The strings ``parts`` form the right-hand side. A line break is allowed only between two strings of
+    ``parts``. ``free`` is the available width for the right-hand side, in points.
 
     >>> list(lines("x", ["a + b", " + c"], 30))
     ['x &= a + b', '&\\quad  + c']

@@ -31,8 +31,8 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
     """Return True if x = y, False if x differs from y, and None if the balls are too wide for a decision.
 
-    If x and y are the same object, the result is True. For a ball x, the difference x - x is a ball around
-    zero and does not prove equality."""
+    If x and y are the same object, the result is True without a subtraction. For a ball x, the difference
+    x - x is a ball around zero and does not prove equality."""
     return True if x is y else ring.is_zero(x - y)
 
 
