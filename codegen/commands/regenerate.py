@@ -74,4 +74,6 @@ def source_folder() -> Path:
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():
         return root / "generated"
-    raise click.UsageError("this copy of orderconds is not in a source tree; name the output folder with the option -o")
+    raise click.UsageError(
+        "this copy of orderconds is not in a source tree; name the output folder with the option -o"
+    )

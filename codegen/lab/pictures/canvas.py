@@ -59,8 +59,8 @@ class Canvas:
     - ``drawing``: the figure of Matplotlib.
     - ``panels``: the Matplotlib axes of the panels.
     - ``names``: the labels of the series.
-    - ``texts``: maps the index of a series in ``names`` to the texts of its markers. The browser displays the text of a
-      marker if the pointer is on the marker.
+    - ``texts``: maps the index of a series in ``names`` to the texts of its markers. The browser displays
+      the text of a marker if the pointer is on the marker.
     - ``titled``: the labels that are titles of panels. The legend omits these labels.
     """
 
